@@ -28,9 +28,9 @@ try {
         all.push({ name, engine, there, seen: performance.now() - begin, kind: dataset.made });
       };
     };
-    for (let i = 1; i <= 24; i++) {
+    for (let i = 1; i <= 80; i++) {
       const begin = performance.now(), [draft, run] = [told("drafted", begin), told("shown", begin)];
-      slider.value = -0.02 * i;
+      slider.value = (i % 2 ? -0.02 : 0.02) * (i % 40 + 1);
       slider.dispatchEvent(new Event("input"));
       await draft();
       // The run comes when the slider has stood still for a while.

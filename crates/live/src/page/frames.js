@@ -41,7 +41,7 @@ const frames = (() => {
     front = next;
     if (was) go(of, was);
   };
-  /** Another run in the page that is there; false where there is none, or its parts are others. */
-  const renew = (html) => Boolean(front?.contentWindow.renew?.(html));
+  /** Another run, or a draft of one, in the page that is there; false where there is none, or its parts are others. */
+  const renew = (html, draft) => Boolean(front?.contentWindow.renew?.(html, draft));
   return { show, renew, there: () => Boolean(front) };
 })();

@@ -23,7 +23,7 @@ const shown = (care, update, asked) => (answer) => {
     return;
   }
   if (!update) frames.show(answer.page);
-  else if (!frames.renew(answer.page)) { anew = true; run(care === "draft" ? "plain" : care); return; }
+  else if (!frames.renew(answer.page, care === "draft")) { anew = true; run(care === "draft" ? "plain" : care); return; }
   tell("");
   peaks(answer.peaks);
   say(SAY[care](seconds(answer.ms)));

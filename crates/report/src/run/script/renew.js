@@ -40,8 +40,12 @@ function changes(a, b, out) {
   return out;
 }
 
-/** The same of the whole page, whose sections may come and go. */
-function changesOfAll(a, b, out) {
+/** The same of the whole page, whose sections may come and go; of a draft, of those on the screen. */
+function changesOfAll(a, b, out, draft) {
+  const seen = (section) => {
+    const { top, bottom } = section.getBoundingClientRect();
+    return bottom > 0 && top < innerHeight;
+  };
   const heads = (e) => [...e.children].filter((c) => c.localName !== "section");
   const old = heads(a), now = heads(b), sections = new Map([...a.children].filter((c) => c.localName === "section").map((s) => [s.id, s]));
   if (old.length !== now.length || !old.every((e, i) => e.nodeName === now[i].nodeName && changes(e, now[i], out))) return null;
@@ -49,7 +53,7 @@ function changesOfAll(a, b, out) {
   for (const section of b.querySelectorAll("section")) {
     const there = sections.get(section.id), before = last;
     if (!there && section.querySelector(FIXED)) return null;
-    if (there && !changes(there, section, out)) return null;
+    if (there && (!draft || seen(there)) && !changes(there, section, out)) return null;
     sections.delete(section.id);
     last = there ?? section;
     if (!there) out.push(() => { before.after(section); begin(section); });
@@ -72,15 +76,16 @@ function later(work) {
 /** The model of the page, which stays: as a text, to be compared. */
 let known = null;
 
-/** Takes what `run_update` made; false where the model is another, or the page has other stages: nothing is changed then. */
-window.renew = (text) => {
+/** Takes what `run_update` made; false where the model is another, or the page has other stages: nothing is changed then.
+ *  A draft is followed by its run: what is not on the screen waits for that. */
+window.renew = (text, draft = false) => {
   const next = new DOMParser().parseFromString(text, "text/html");
   const of = (page, id) => page.getElementById(id);
   const fresh = JSON.parse(of(next, "data").textContent), all = [];
   const model = ({ picture, modes, frames }) => JSON.stringify([picture, modes.length, frames.t.length > 1]);
   known ??= model(JSON.parse(of(document, "data").textContent));
   if (model(fresh) !== known) return false;
-  if (!changesOfAll(document.querySelector("main"), next.querySelector("main"), all)) return false;
+  if (!changesOfAll(document.querySelector("main"), next.querySelector("main"), all, draft)) return false;
   if (!changes(of(document, "made"), of(next, "made"), all)) return false;
   document.title = next.title;
   for (const change of all) change();
