@@ -138,6 +138,32 @@ fn a_building_has_base_shear_and_drift_instead_of_a_response_mode() {
     assert_eq!(answer("hits of stops")["text"], summary["stops"]["hits"].to_string());
 }
 
+/// A law of shear alone travels like a bearing where a spring or a support carries what stands on it.
+#[test]
+fn a_bearing_is_one_beside_a_spring_that_carries_as_well() {
+    let bearing =
+        r#""isolator": ElastomericBearing(node: "a", k: "20 MN/m", fy: "20 kN", ratio: 0.05),"#;
+    let carried = BUILDING.replace(r#""a": Ry"#, r#""a": (Uz, Ry)"#);
+    let spring = r#""spring": Spring(node: "a", k1: "5 GN/m", axis1: (0, 0, 1)),"#;
+    let at = BUILDING.lines().find(|line| line.contains("FrictionPendulum")).unwrap();
+    for text in [carried.replace(at, bearing), BUILDING.replace(at, &format!("{bearing}{spring}"))]
+    {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("building.ron"), &text).unwrap();
+        let (status, out, err) = trilith(folder.path(), &["run", "building.ron"]);
+        assert_eq!(status, 0, "{out}{err}");
+        let data = std::fs::read_to_string(folder.path().join("out/building/report.json")).unwrap();
+        let data: serde_json::Value = serde_json::from_str(&data).unwrap();
+        let all = data["answers"].as_array().unwrap();
+        let travel = all.iter().find(|a| a["words"] == "largest travel of bearings");
+        let travel = travel.unwrap_or_else(|| panic!("{all:?}\n{text}"));
+        assert!(
+            travel["value"].as_f64().unwrap() > 0.01 && travel["note"] == "isolator",
+            "{travel}"
+        );
+    }
+}
+
 /// The same number, or none in both places.
 fn close(found: &serde_json::Value, wanted: Option<f64>) -> bool {
     match (found.as_f64(), wanted) {
