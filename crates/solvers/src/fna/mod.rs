@@ -9,7 +9,7 @@
 //! ```
 //!
 //! Modes without coupling by damping have a recurrence of their own; otherwise (dashpots of the
-//! structure, modal damping beside effective stiffnesses) one exponential of the whole space is taken. Both are exact,
+//! structure, modal damping beside effective stiffnesses) the whole space takes its step at once. Both are exact,
 //! also for ω = 0 and beyond critical damping. Static shapes follow the loads (see `following`).
 //!
 //! **Stiff links.** With link forces linear in the step the exact rule is the linear-acceleration method
