@@ -49,7 +49,7 @@ struct ToRun {
 }
 
 /// How carefully.
-#[derive(Clone, Copy, Default, Deserialize, PartialEq)]
+#[derive(Clone, Copy, Default, Deserialize, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 enum Care {
     /// With coarser steps, for a value that is still being moved.
@@ -155,11 +155,11 @@ fn parameters<'a>(model: &'a Model, source: &'a str) -> Vec<Parameter<'a>> {
 }
 
 fn run(asked: ToRun) -> Result<Value, String> {
-    let ToRun { path, text, set, case, solver, care, update } = asked;
+    let ToRun { path, text, set, case, solver, mut care, update } = asked;
     let overrides: Vec<(String, String)> = set.clone().into_iter().collect();
     let (_, mut model) = read(&path, &text, set)?;
-    if care == Care::Draft {
-        draft::coarsen(&mut model);
+    if care == Care::Draft && !draft::coarsen(&mut model) {
+        care = Care::Plain;
     }
     let model = &model;
     let renderer = Renderer::plain();
@@ -188,6 +188,7 @@ fn run(asked: ToRun) -> Result<Value, String> {
     let made = if update { report::run_update } else { report::run_page };
     Ok(json!({
         "page": made(&value, &data, &Value::Null),
+        "care": care,
         "warnings": summary.warnings,
         "peaks": peaks(model, &run),
         "ended": summary.status,
@@ -263,6 +264,12 @@ mod tests {
         let [draft, plain, errors] = ["draft", "plain", "errors"].map(run);
         let exact = (100.0_f64 / 4000.0).sqrt();
         assert_ne!(sway(&draft), sway(&plain));
+        assert_eq!([&draft["care"], &plain["care"]], ["draft", "plain"]);
+        // What has no draft is run.
+        let fixed = TEXT.replace("solver: Hht", "solver: Hht, step: Fixed");
+        let fixed =
+            asked(&json!({ "ask": "run", "path": "a.ron", "text": fixed, "care": "draft" }));
+        assert_eq!(fixed["care"], "plain");
         assert_eq!(sway(&errors), sway(&plain));
         assert!((sway(&draft) / exact - 1.0).abs() < 3e-3, "{}", draft["peaks"]);
         assert!((sway(&plain) / exact - 1.0).abs() < 2e-4, "{}", plain["peaks"]);

@@ -16,22 +16,25 @@ const LINKS: f64 = 1e-6;
 /// Share of the energy that may be unaccounted for.
 const ENERGY: f64 = 3e-2;
 
-/// Makes the motions of a model cheap to find.
-pub(crate) fn coarsen(model: &mut Model) {
+/// Makes the motions of a model cheap to find; false where none of them can be.
+pub(crate) fn coarsen(model: &mut Model) -> bool {
+    let mut any = false;
     for case in &mut model.cases {
         if let Analysis::Dynamic(dynamic) = &mut case.analysis {
-            coarsen_case(dynamic);
+            any |= coarsen_case(dynamic);
         }
     }
+    any
 }
 
-fn coarsen_case(case: &mut DynamicCase) {
+fn coarsen_case(case: &mut DynamicCase) -> bool {
     let solution = &mut case.solution;
-    let StepControl::Adaptive { tolerance } = &mut solution.step else { return };
+    let StepControl::Adaptive { tolerance } = &mut solution.step else { return false };
     *tolerance = tolerance.max((LOOSER * *tolerance).min(LOOSEST));
     solution.link_tolerance = solution.link_tolerance.max(LINKS);
     solution.energy_limit = solution.energy_limit.max(ENERGY);
     case.dt *= (output_steps(case.duration, case.dt) / STEPS).floor().max(1.0);
+    true
 }
 
 #[cfg(test)]
@@ -52,7 +55,7 @@ mod tests {
         );
         let text = trilith::model::ModelText::new(&text, "a.ron").unwrap();
         let mut model = text.read(&trilith::registry(), &[]).unwrap();
-        coarsen(&mut model);
+        assert_eq!(coarsen(&mut model), step.starts_with("Adaptive"));
         let Analysis::Dynamic(case) = model.cases.remove(0).analysis else { panic!("static") };
         *case
     }

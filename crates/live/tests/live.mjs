@@ -51,7 +51,7 @@ try {
   await size(1280, 900, "light");
   await on("Page.navigate", { url: pathToFileURL(resolve(path)).href });
   await until("the first run", "document.body?.dataset.shown");
-  await until("its errors", "document.body.dataset.shown.endsWith('\"errors\"]')");
+  await until("its errors", "document.body.dataset.shown.endsWith(' errors')");
   await compare("as the file says", wanted.peaks);
   await picture("1280-light");
 
@@ -64,7 +64,7 @@ try {
   await compare(`${wanted.parameter} moved`, wanted.moved);
   const commanded = await value("document.getElementById('command').textContent");
   if (!commanded.includes(`--set ${wanted.parameter}=`)) complain(`the command does not say it: ${commanded}`);
-  await until("its errors", "document.body.dataset.shown.endsWith('\"errors\"]')");
+  await until("its errors", "document.body.dataset.shown.endsWith(' errors')");
 
   const [right, wrong] = wanted.wrong;
   const write = (from, to) => value(`{ const t = document.getElementById("text"); t.value = t.value.replace(${JSON.stringify(from)}, ${JSON.stringify(to)}); t.dispatchEvent(new Event("input")); }`);

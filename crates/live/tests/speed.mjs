@@ -16,7 +16,7 @@ try {
   const { on, value, until } = await session(browser, (what) => { bad++; console.log(what); });
   await on("Emulation.setDeviceMetricsOverride", { width: 1280, height: 900, deviceScaleFactor: 1, mobile: false });
   await on("Page.navigate", { url: pathToFileURL(resolve(path)).href });
-  await until("the first run with its errors", "document.body?.dataset.shown?.includes('errors')");
+  await until("the first run with its errors", "document.body?.dataset.shown?.endsWith(' errors')");
   const all = await value(`(async () => {
     const slider = document.querySelector('input[aria-label="${parameter}, slider"]'), all = [], { dataset } = document.body;
     const told = (name, begin) => {

@@ -4,6 +4,8 @@
 let timer, patience;
 /** Whether runs make a page of their own: what is changed has another model as its effect, such as another width. */
 let anew = false;
+/** Changes so far, and the one whose run is there, be it that it has no draft. */
+let count = 0, exact = 0;
 /** Milliseconds without a change before a draft is followed by its run, and that by its errors; after which a run makes way for
  *  another value, and a draft is called long. */
 const STILL = 150, QUIET = 700, WAY = 50, PATIENCE = 1500;
@@ -15,40 +17,45 @@ const SAY = {
   errors: (ms) => `Run with its errors in ${ms}.`,
 };
 
-const shown = (care, update, asked) => (answer) => {
+const shown = (asked, update, change, of) => (answer) => {
   clearTimeout(patience);
+  const care = answer.care ?? asked;
+  if (care !== "draft") {
+    exact = change;
+    if (change === count) engine.drop("plain");
+  }
   if (answer.told) {
     tell(answer.told);
     say("The results are those of before.");
     return;
   }
   if (!update) frames.show(answer.page);
-  else if (!frames.renew(answer.page, care === "draft")) { anew = true; run(care === "draft" ? "plain" : care); return; }
+  else if (!frames.renew(answer.page, care === "draft")) { anew = true; run(asked === "draft" ? "plain" : asked); return; }
   tell("");
   peaks(answer.peaks);
   say(SAY[care](seconds(answer.ms)));
-  Object.assign(document.body.dataset, { engine: answer.ms, made: update ? "renewed" : "made anew", [care === "draft" ? "drafted" : "shown"]: asked });
+  Object.assign(document.body.dataset, { engine: answer.ms, made: update ? "renewed" : "made anew", [care === "draft" ? "drafted" : "shown"]: `${of} ${care}` });
 };
 function run(care) {
   const update = frames.there() && !anew;
   const { path, text, set, case: of, solver } = state;
-  const asked = JSON.stringify([set, of, solver, text.length, care]);
-  engine.ask(care, { ask: "run", path, text, set, case: of, solver, care, update }, shown(care, update, asked));
+  const words = JSON.stringify([set, of, solver, text.length]);
+  engine.ask(care, { ask: "run", path, text, set, case: of, solver, care, update }, shown(care, update, count, words));
 }
 function changed() {
   command();
+  count++;
   clearTimeout(timer);
   // What takes long makes way for a new value.
   const goes = engine.goes(), most = { draft: PATIENCE, plain: WAY, errors: 0 }[goes?.kind] ?? Infinity;
   if (goes && goes.ms >= most) engine.stop();
   engine.drop("plain", "errors");
-  const draft = frames.there() && !anew;
-  run(draft ? "draft" : "plain");
+  run(frames.there() && !anew ? "draft" : "plain");
   clearTimeout(patience);
   patience = setTimeout(() => say("A long run goes on …"), PATIENCE);
   const errors = () => { anew = false; run("errors"); };
   timer = setTimeout(() => {
-    if (draft) run("plain");
+    if (exact !== count) run("plain");
     timer = setTimeout(errors, QUIET - STILL);
   }, STILL);
 }
