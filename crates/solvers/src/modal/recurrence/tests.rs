@@ -6,6 +6,89 @@ fn single(omega2: &[f64]) -> Coupled<'_> {
     Coupled { modes: 1, omega2, damping: Dense::zeros(1, 1) }
 }
 
+/// Five modes from at rest to fast and two first-order unknowns, damped by all that may be, against many small steps of the equations.
+#[test]
+fn random_systems_that_damping_couples_move_as_their_equations_say() {
+    const MODES: usize = 5;
+    const ALL: usize = 7;
+    let mut seed = 0x9e37_79b9_7f4a_7c15_u64;
+    let mut random = || {
+        seed ^= seed << 13;
+        seed ^= seed >> 7;
+        seed ^= seed << 17;
+        (seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    };
+    for dt in [1e-3, 0.02, 0.1] {
+        let omega2 = [0.0, 4.0, 300.0, 2e4, 9e4, 30.0, 700.0];
+        // D = D₀ + E G⁻¹ Eᵀ: nothing gains energy.
+        let mut damping = Dense::zeros(ALL, ALL);
+        for y in MODES..ALL {
+            damping[(y, y)] = 2.0 + random();
+            for i in 0..MODES {
+                damping[(i, y)] = random();
+                damping[(y, i)] = damping[(i, y)];
+            }
+        }
+        let root: [[f64; MODES]; MODES] = [(); MODES].map(|()| [(); MODES].map(|()| random()));
+        for i in 0..MODES {
+            for j in 0..MODES {
+                let own: f64 = (0..MODES).map(|k| root[i][k] * root[j][k]).sum();
+                let tied =
+                    (MODES..ALL).map(|y| damping[(i, y)] * damping[(j, y)] / damping[(y, y)]);
+                damping[(i, j)] = own + tied.sum::<f64>();
+            }
+        }
+        let numbers = [(); 4].map(|()| [(); ALL].map(|()| random()));
+        let [q0, v0, s0, s1] = &numbers;
+        // ∫q, q and q̇, of first-order unknowns their rates in the place of q̇.
+        let rate = |t: f64, x: &[[f64; ALL]; 3]| {
+            let source = |j: usize| s0[j] + (s1[j] - s0[j]) * t / dt;
+            let mut v = x[2];
+            for y in MODES..ALL {
+                let tie: f64 = (0..MODES).map(|i| damping[(y, i)] * v[i]).sum();
+                v[y] = (source(y) - omega2[y] * x[1][y] - tie) / damping[(y, y)];
+            }
+            let mut a = [0.0; ALL];
+            for i in 0..MODES {
+                let damped: f64 = (0..ALL).map(|j| damping[(i, j)] * v[j]).sum();
+                a[i] = source(i) - omega2[i] * x[1][i] - damped;
+            }
+            [x[1], v, a]
+        };
+        let add = |x: &[[f64; ALL]; 3], r: &[[f64; ALL]; 3], h: f64| {
+            let mut sum = *x;
+            for (x, r) in sum.iter_mut().flatten().zip(r.iter().flatten()) {
+                *x += h * r;
+            }
+            sum
+        };
+        let (mut x, steps) = ([[0.0; ALL], *q0, *v0], 20_000);
+        let h = dt / f64::from(steps);
+        for i in 0..steps {
+            let t = h * f64::from(i);
+            let k1 = rate(t, &x);
+            let k2 = rate(t + 0.5 * h, &add(&x, &k1, 0.5 * h));
+            let k3 = rate(t + 0.5 * h, &add(&x, &k2, 0.5 * h));
+            let k4 = rate(t + h, &add(&x, &k3, h));
+            for (k, share) in [(k1, 1.0), (k2, 2.0), (k3, 2.0), (k4, 1.0)] {
+                x = add(&x, &k, share * h / 6.0);
+            }
+        }
+        x[2] = rate(dt, &x)[1];
+        let found = Coupled { modes: MODES, omega2: &omega2, damping: damping.clone() }.exact(dt);
+        for (row, (found, expected)) in found.iter().zip(&x).enumerate() {
+            let most = expected.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+            let mut y = vec![0.0; ALL];
+            for (block, x) in found.iter().zip(&numbers) {
+                block.mul_add(1.0, x, &mut y);
+            }
+            for (j, (y, x)) in y.iter().zip(expected).enumerate() {
+                assert!((y - x).abs() < 1e-9 * most, "Δt {dt}, row {row}, {j}: {y} {x}");
+            }
+        }
+    }
+}
+
 /// A mass m on a spring k and a dashpot c in a row (unit mass, κ = k, E = −c e, …) against many small steps of the
 /// equations themselves, for both rules.
 #[test]
