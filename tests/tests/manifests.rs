@@ -109,7 +109,7 @@ fn dependencies_point_one_way() {
         ("trilith-live", &["trilith", "trilith-diagnostics"]),
         ("trilith-lsp", &["trilith"]),
         ("trilith-bench", &["trilith", "trilith-linalg", "trilith-report"]),
-        ("trilith-guide", &["trilith", "trilith-cli", "trilith-study"]),
+        ("trilith-guide", &["trilith", "trilith-cli", "trilith-live", "trilith-study"]),
         ("trilith-python", &["trilith", "trilith-cli", "trilith-foreign", "trilith-study"]),
         ("trilith-thirdparty-example", &["trilith-element", "trilith", "trilith-cli"]),
     ];

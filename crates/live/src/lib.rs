@@ -12,4 +12,4 @@ mod exports;
 mod page;
 
 pub use answer::answer;
-pub use page::{Live, page};
+pub use page::{AnyModel, Live, page};

@@ -47,10 +47,57 @@ pub struct Live<'a> {
 /// # Errors
 /// None that a memory to write to could give.
 pub fn page(live: &Live<'_>) -> Result<String> {
+    Ok(html(live, Some(&packed(live.engine)?)))
+}
+
+/// A page for any model, and the engine beside it: many models of one site share them.
+#[derive(Clone, Debug)]
+pub struct AnyModel {
+    /// The page. Its address says the model behind `#`: a JSON object with `title`, `path` and `text`, percent-encoded.
+    pub page: String,
+    /// The script with the engine, which the page looks for beside itself under the name [`AnyModel::ENGINE`].
+    pub engine: String,
+}
+
+impl AnyModel {
+    /// Name of the script with the engine.
+    pub const ENGINE: &str = "engine.js";
+
+    /// Such a page, with the files that models may read: text by path.
+    ///
+    /// # Errors
+    /// None that a memory to write to could give.
+    pub fn new(files: BTreeMap<String, String>, engine: &[u8]) -> Result<Self> {
+        let (title, path, text) = ("Model", "model.ron", "");
+        let live = Live {
+            title,
+            path,
+            text,
+            files,
+            set: &[],
+            case: None,
+            solver: None,
+            charts: None,
+            engine,
+        };
+        let digits = packed(engine)?;
+        let engine =
+            format!("document.getElementById(\"engine\").textContent = {};\n", json!(digits));
+        Ok(Self { page: html(&live, None), engine })
+    }
+}
+
+/// An engine as text.
+fn packed(engine: &[u8]) -> Result<String> {
     let mut packed = GzEncoder::new(Vec::new(), Compression::best());
-    packed.write_all(live.engine)?;
-    let engine = digits(&packed.finish()?);
+    packed.write_all(engine)?;
+    Ok(digits(&packed.finish()?))
+}
+
+/// The page with the engine in it; without, for any model and with the engine beside it.
+fn html(live: &Live<'_>, engine: Option<&str>) -> String {
     let model = json!({
+        "any": engine.is_none(),
         "path": live.path,
         "text": live.text,
         "files": live.files,
@@ -75,7 +122,7 @@ pub fn page(live: &Live<'_>) -> Result<String> {
             body {
                 main class=[live.charts.map(|_| "study")] {
                     section.side aria-label="Model" {
-                        h1 { (live.title) }
+                        h1 #title { (live.title) }
                         p.choices {
                             label { "case " select #case {} }
                             label { "solver " select #solver {} }
@@ -111,14 +158,15 @@ pub fn page(live: &Live<'_>) -> Result<String> {
                     }
                     div #results {}
                 }
-                script type="application/gzip+base85" #engine { (PreEscaped(engine)) }
+                script type="application/gzip+base85" #engine { (PreEscaped(engine.unwrap_or_default())) }
+                @if engine.is_none() { script src=(AnyModel::ENGINE) {} }
                 script type="application/json" #model { (PreEscaped(model)) }
                 script { (PreEscaped(SCRIPT.join("\n"))) }
                 @if let Some(c) = live.charts { (PreEscaped(&c.script)) }
             }
         }
     };
-    Ok(page.into_string())
+    page.into_string()
 }
 
 #[cfg(test)]

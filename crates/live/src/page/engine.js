@@ -1,6 +1,16 @@
 // Questions to the engine. One goes at a time; of those that wait, the last one of its kind counts.
 "use strict";
 const data = JSON.parse(document.getElementById("model").textContent);
+// A page for any model is told which by its address.
+if (data.any) {
+  try {
+    const { title, path, text } = JSON.parse(decodeURIComponent(location.hash.slice(1)));
+    Object.assign(data, { path: String(path), text: String(text) });
+    document.title = document.getElementById("title").textContent = String(title);
+  } catch {
+    document.getElementById("title").textContent = "The address of this page names no model";
+  }
+}
 
 const engine = (() => {
   const source = URL.createObjectURL(new Blob([data.worker], { type: "text/javascript" }));
