@@ -53,3 +53,36 @@ pub fn enliven(site: &Path, engine: &Path, root: &Path) -> Result<usize, Box<dyn
 fn runs(html: &str) -> bool {
     html.contains("class=\"language-ron file=")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pages_with_models_open_them_and_others_stay_as_they_are() {
+        let folder = tempfile::tempdir().unwrap();
+        let site = folder.path();
+        let write = |name: &str, html: &str| std::fs::write(site.join(name), html).unwrap();
+        let read = |name: &str| std::fs::read_to_string(site.join(name)).unwrap();
+        let model = "<pre><code class=\"language-ron file=wall.ron\">(…)</code></pre>";
+        write("model.html", &format!("<html><body>{model}</body></html>"));
+        write("words.html", "<html><body>words</body></html>");
+        let engine = site.join("engine.wasm");
+        std::fs::write(&engine, b"\0asm and so on").unwrap();
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+        assert_eq!(enliven(site, &engine, &root).unwrap(), 1);
+        let lively = read("model.html");
+        assert!(lively.ends_with("<script src=\"run.js\"></script>\n</body></html>"), "{lively}");
+        assert_eq!(read("words.html"), "<html><body>words</body></html>");
+        let run = read("run.html");
+        assert!(run.contains("src=\"engine.js\"") && run.contains("models/sections/steel.ron"));
+        assert!(
+            read("engine.js").starts_with("document.getElementById(\"engine\").textContent = \"")
+        );
+        // Once is enough.
+        assert_eq!(enliven(site, &engine, &root).unwrap(), 0);
+        assert_eq!(read("model.html"), lively);
+        let missing = enliven(site, Path::new("no such engine"), &root).unwrap_err();
+        assert!(missing.to_string().contains("no such engine"), "{missing}");
+    }
+}

@@ -256,14 +256,13 @@ mod tests {
     }
 
     #[test]
-    fn a_draft_is_near_and_takes_fewer_steps() {
+    fn a_draft_is_near_and_says_what_it_is() {
         let run = |care: &str| {
             asked(&json!({ "ask": "run", "path": "a.ron", "text": TEXT, "care": care }))
         };
         let sway = |told: &Value| told["peaks"][0]["value"].as_f64().unwrap().abs();
         let [draft, plain, errors] = ["draft", "plain", "errors"].map(run);
         let exact = (100.0_f64 / 4000.0).sqrt();
-        assert_ne!(sway(&draft), sway(&plain));
         assert_eq!([&draft["care"], &plain["care"]], ["draft", "plain"]);
         // What has no draft is run.
         let fixed = TEXT.replace("solver: Hht", "solver: Hht, step: Fixed");
