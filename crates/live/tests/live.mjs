@@ -17,8 +17,8 @@ if (!browser) process.exit(0);
 if (out) mkdirSync(out, { recursive: true });
 /** Peaks of the page and of the program are equal to so many parts: their libraries differ in last bits, whose growth the steps' tolerance holds. */
 const EQUAL = 1e-6;
-/** A draft is as near as this; the largest of its peaks are nearer. */
-const DRAFT = 0.02;
+/** A draft is as near as this; the largest of its peaks are much nearer. */
+const DRAFT = 0.05;
 let bad = 0;
 const complain = (what) => { bad++; console.log(what); };
 
