@@ -13,7 +13,7 @@ fn squarings(norm: f64) -> i32 {
     if norm > 0.5 && norm.is_finite() { norm.log2().ceil() as i32 + 1 } else { 0 }
 }
 
-/// [`expm`] of a small matrix, row by row, without a place on the heap.
+/// exp(A) of a small matrix, row by row, without a place on the heap: φ₀ of [`phi_functions`] alone.
 #[must_use]
 pub fn expm_small<const N: usize>(a: [[f64; N]; N]) -> [[f64; N]; N] {
     let times = |a: &[[f64; N]; N], b: &[[f64; N]; N]| {
