@@ -110,12 +110,13 @@ impl Group {
     #[inline(always)]
     fn read<const N: usize>(self, from: &[Fused], count: usize) -> [Four; N] {
         let from = &from[self.first * count..][..self.count * count];
-        let links: [&[Fused]; 4] =
-            std::array::from_fn(|lane| &from[lane.min(self.count - 1) * count..][..count]);
+        // Each by its name: a closure is a call here.
+        let last = self.count - 1;
+        let (a, b) = (&from[..count], &from[1.min(last) * count..][..count]);
+        let (c, d) = (&from[2.min(last) * count..][..count], &from[3.min(last) * count..][..count]);
         let mut to = [self.splat(Fused(0.0)); N];
         for i in 0..count {
-            let of = |lane: usize| links[lane][i].0;
-            to[i] = Wide::of_registers(self.simd, [f64x4(of(0), of(1), of(2), of(3))]);
+            to[i] = Wide::of_registers(self.simd, [f64x4(a[i].0, b[i].0, c[i].0, d[i].0)]);
         }
         to
     }
