@@ -178,9 +178,9 @@ pub(crate) fn text(all: &[Compared]) -> String {
 
 /// How far a variant is from the first, and what it costs beside it, in one sentence.
 pub(crate) fn answer(first: &Compared, c: &Compared) -> String {
+    // What is no number is beyond all that are.
     let largest = |of: fn(&Difference) -> f64| {
-        let finite = c.differences.iter().filter(|d| of(d).is_finite());
-        finite.max_by(|a, b| of(a).abs().total_cmp(&of(b).abs()))
+        c.differences.iter().max_by(|a, b| of(a).abs().total_cmp(&of(b).abs()))
     };
     let apart = match (largest(|d| d.peak), largest(|d| d.rms)) {
         (Some(peak), Some(rms)) => format!(
@@ -198,7 +198,11 @@ pub(crate) fn answer(first: &Compared, c: &Compared) -> String {
     } else {
         String::new()
     };
-    format!("{} beside {}: {apart}{cost}.", c.variant, first.variant)
+    let [own, other] = [c, first].map(|c| match c.outcome.summary.status {
+        "converged" => c.variant.to_string(),
+        status => format!("{} ({status})", c.variant),
+    });
+    format!("{own} beside {other}: {apart}{cost}.")
 }
 
 /// Differences over time, a row for each output.

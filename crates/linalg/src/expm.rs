@@ -88,7 +88,7 @@ pub fn phi_functions(a: &Dense) -> [Dense; 4] {
     let phi1 = next(&phi2, 1.0);
     let mut all = [next(&phi1, 1.0), phi1, phi2, phi3];
     for _ in 0..squarings {
-        let [mut phi0, mut phi1, mut phi2, mut phi3] = all.each_ref().map(|phi| all[0].times(phi));
+        let [phi0, mut phi1, mut phi2, mut phi3] = all.each_ref().map(|phi| all[0].times(phi));
         let of = |k: usize| all[k].values().iter();
         for (x, (b, (c, d))) in phi3.values_mut().iter_mut().zip(of(1).zip(of(2).zip(of(3)))) {
             *x = 0.125 * (*x + 0.5 * b + c + d);
@@ -99,8 +99,7 @@ pub fn phi_functions(a: &Dense) -> [Dense; 4] {
         for (x, b) in phi1.values_mut().iter_mut().zip(of(1)) {
             *x = 0.5 * (*x + b);
         }
-        std::mem::swap(&mut all[0], &mut phi0);
-        [all[1], all[2], all[3]] = [phi1, phi2, phi3];
+        all = [phi0, phi1, phi2, phi3];
     }
     all
 }
