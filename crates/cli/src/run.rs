@@ -11,7 +11,7 @@ use crate::{
 use std::path::{Path, PathBuf};
 use trilith::model::{Body, Element};
 use trilith::record::design::DesignSpectrum;
-use trilith::report::RunData;
+use trilith::report::{RunData, Sections};
 use trilith::results::{Folder, OF_RUN, Summary, Writer};
 use trilith::solvers::Status;
 use trilith::{Analysis, Checkpoint, Model, Registry, Run, RunOptions};
@@ -157,7 +157,7 @@ fn write(
     let mut laid = Ok(());
     if !args.no_report {
         let loops = names::flat(&args.loops);
-        let mut data = run.report_of(analysis, summary, &args.model.set, &loops);
+        let mut data = run.report_of(analysis, summary, &args.model.set, &loops, &Sections::all());
         laid = over(&mut data, args, spectrum);
         let page = trilith::write_report(dir, &data).map_err(|e| Failure::of(&e, model))?;
         text += &show("report", &page);

@@ -3,10 +3,14 @@
 use crate::draft;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
+use std::cell::Cell;
 use std::collections::BTreeMap;
+use std::path::Path;
+use std::rc::Rc;
 use trilith::model::file::{Kind, Node};
 use trilith::model::{ModelText, Output, ParameterValue};
-use trilith::{Analysis, Diagnostic, Error, Model, Run, RunOptions, report};
+use trilith::report::{self, Sections};
+use trilith::{Analysis, Diagnostic, Error, Model, Run, RunOptions};
 use trilith_diagnostics::{Renderer, all, at, plain};
 
 /// Deformed shapes that a page moves through.
@@ -16,7 +20,7 @@ const FRAMES: usize = 200;
 #[derive(Deserialize)]
 #[serde(tag = "ask", rename_all = "snake_case", deny_unknown_fields)]
 enum Question {
-    /// Keeps files that models read: their content by their path. Those kept before are no more.
+    /// Keeps files that models read: their content by their path. Those kept before are no more, nor is what was read of them.
     Files { files: BTreeMap<String, String> },
     /// Cases, solvers and parameters of a model.
     Look {
@@ -46,6 +50,9 @@ struct ToRun {
     /// Whether the page is there already, of another run of the same model: what takes the place of its parts will do.
     #[serde(default)]
     update: bool,
+    /// Sections that a draft takes the place of; all where none are named.
+    #[serde(default)]
+    sections: Option<Vec<String>>,
 }
 
 /// How carefully.
@@ -88,6 +95,7 @@ fn told(message: &str, help: Option<&str>) -> String {
 fn of(question: Question) -> Result<Value, String> {
     match question {
         Question::Files { files } => {
+            LAST.take();
             keep(files);
             Ok(json!({}))
         }
@@ -118,14 +126,31 @@ fn keep(files: BTreeMap<String, String>) {
 #[cfg(not(all(target_family = "wasm", target_os = "unknown")))]
 fn keep(_: BTreeMap<String, String>) {}
 
+thread_local! {
+    /// The model that was read last, with its files: most questions differ in values alone.
+    static LAST: Cell<Option<Rc<ModelText>>> = const { Cell::new(None) };
+}
+
+fn parsed(path: &str, text: &str) -> Result<Rc<ModelText>, Vec<Diagnostic>> {
+    let same = |last: &Rc<ModelText>| {
+        last.sources().next().is_some_and(|s| s.path == Path::new(path) && s.text == text)
+    };
+    let model = match LAST.take().filter(same) {
+        Some(last) => last,
+        None => Rc::new(ModelText::new(text, path)?),
+    };
+    LAST.set(Some(Rc::clone(&model)));
+    Ok(model)
+}
+
 fn read(
     path: &str,
     text: &str,
     set: BTreeMap<String, String>,
-) -> Result<(ModelText, Model), String> {
+) -> Result<(Rc<ModelText>, Model), String> {
     let wrong = |errors: Vec<Diagnostic>| all(&Renderer::plain(), &errors);
     let set: Vec<(String, String)> = set.into_iter().collect();
-    let text = ModelText::new(text, path).map_err(wrong)?;
+    let text = parsed(path, text).map_err(wrong)?;
     let model = text.read(&trilith::registry(), &set).map_err(wrong)?;
     Ok((text, model))
 }
@@ -155,7 +180,7 @@ fn parameters<'a>(model: &'a Model, source: &'a str) -> Vec<Parameter<'a>> {
 }
 
 fn run(asked: ToRun) -> Result<Value, String> {
-    let ToRun { path, text, set, case, solver, mut care, update } = asked;
+    let ToRun { path, text, set, case, solver, mut care, update, sections } = asked;
     let overrides: Vec<(String, String)> = set.clone().into_iter().collect();
     let (_, mut model) = read(&path, &text, set)?;
     if care == Care::Draft && !draft::coarsen(&mut model) {
@@ -183,11 +208,17 @@ fn run(asked: ToRun) -> Result<Value, String> {
         RunOptions { case, solver, step_errors: care == Care::Errors, ..RunOptions::default() };
     let run = analysis.run(options).map_err(failed)?;
     let summary = run.summary(model);
-    let data = run.report_of(&analysis, &summary, &overrides, &[]);
+    // After a run that is no draft none follows.
+    let sections = sections.filter(|_| update && care == Care::Draft);
+    let sections = sections.map_or_else(Sections::all, Sections::of);
+    let data = run.report_of(&analysis, &summary, &overrides, &[], &sections);
     let value = serde_json::to_value(&summary).unwrap_or_default();
-    let made = if update { report::run_update } else { report::run_page };
+    let page = match update {
+        true => report::run_update(&value, &data, &Value::Null, &sections),
+        false => report::run_page(&value, &data, &Value::Null),
+    };
     Ok(json!({
-        "page": made(&value, &data, &Value::Null),
+        "page": page,
         "care": care,
         "warnings": summary.warnings,
         "peaks": peaks(model, &run),
@@ -272,6 +303,32 @@ mod tests {
         assert_eq!(sway(&errors), sway(&plain));
         assert!((sway(&draft) / exact - 1.0).abs() < 3e-3, "{}", draft["peaks"]);
         assert!((sway(&plain) / exact - 1.0).abs() < 2e-4, "{}", plain["peaks"]);
+    }
+
+    #[test]
+    fn a_draft_makes_the_sections_that_are_asked_for() {
+        let page = |text: &str, more: Value| {
+            let mut question = json!({ "ask": "run", "path": "a.ron", "text": text });
+            question.as_object_mut().unwrap().extend(more.as_object().unwrap().clone());
+            asked(&question)["page"].as_str().unwrap().to_owned()
+        };
+        let has = |page: &str, id: &str| page.contains(&format!("<section id=\"{id}\">"));
+        let sections = json!(["peaks", "histories"]);
+        let draft = page(TEXT, json!({ "update": true, "care": "draft", "sections": sections }));
+        assert!(has(&draft, "peaks") && has(&draft, "histories"), "{draft}");
+        assert!(!has(&draft, "motion") && !has(&draft, "energy") && !draft.contains("<nav"));
+        assert!(!draft.contains("\"frames\"") && !draft.contains("id=\"shapes\""));
+        // None follows what is no draft, nor what makes a page of its own: they are whole.
+        let fixed = TEXT.replace("solver: Hht", "solver: Hht, step: Fixed");
+        for (text, more) in [
+            (TEXT, json!({ "update": true, "sections": sections })),
+            (TEXT, json!({ "care": "draft", "sections": sections })),
+            (&fixed, json!({ "update": true, "care": "draft", "sections": sections })),
+        ] {
+            let whole = page(text, more);
+            assert!(has(&whole, "motion") && has(&whole, "energy") && whole.contains("<nav"));
+            assert!(whole.contains("\"frames\"") && whole.contains("id=\"shapes\""));
+        }
     }
 
     #[test]

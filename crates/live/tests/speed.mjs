@@ -20,15 +20,20 @@ try {
   const all = await value(`(async () => {
     const slider = document.querySelector('input[aria-label="${parameter}, slider"]'), all = [], { dataset } = document.body;
     const told = (name, begin) => {
-      const before = dataset[name];
+      const changed = new Promise((done) => {
+        const watch = new MutationObserver(() => { watch.disconnect(); done(); });
+        watch.observe(document.body, { attributeFilter: ["data-" + name] });
+      });
       return async () => {
-        while (dataset[name] === before) await new Promise((done) => setTimeout(done));
+        await changed;
         const there = performance.now() - begin, engine = Number(dataset.engine);
         await new Promise(requestAnimationFrame);
         all.push({ name, engine, there, seen: performance.now() - begin, kind: dataset.made });
       };
     };
     for (let i = 1; i <= 80; i++) {
+      // From a page at rest: what was shown last is drawn.
+      await new Promise(requestIdleCallback);
       const begin = performance.now(), [draft, run] = [told("drafted", begin), told("shown", begin)];
       slider.value = (i % 2 ? -0.02 : 0.02) * (i % 40 + 1);
       slider.dispatchEvent(new Event("input"));

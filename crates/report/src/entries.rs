@@ -1,6 +1,7 @@
 //! What points of figures stand for: rows that the reader of a page can ask.
 
 use serde_json::{Value, json};
+use std::collections::HashMap;
 
 /// Rows that points of figures stand for, such as the runs of a study.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -31,8 +32,10 @@ pub struct Entry {
 impl Entries {
     pub(crate) fn data(&self) -> Value {
         let of = |what: &dyn Fn(&Entry) -> Value| -> Value { self.rows.iter().map(what).collect() };
-        let mut out =
-            json!({ "name": self.name, "head": self.head, "rows": of(&|r| json!(r.cells)) });
+        let cells = self.columns(self.head.len(), |r, i| r.cells.get(i));
+        let mut out = json!({
+            "name": self.name, "head": self.head, "count": self.rows.len(), "cells": cells
+        });
         if self.rows.iter().any(|r| !r.place.is_empty()) {
             out["links"] = of(&|r| json!(address(&r.place)));
         }
@@ -49,13 +52,46 @@ impl Entries {
                     r.set.iter().enumerate().all(|(i, (_, value))| r.cells.get(i) == Some(value))
                 };
                 if !self.rows.iter().all(cells) {
-                    out["values"] = of(&|r| r.set.iter().map(|(_, value)| json!(value)).collect());
+                    let values =
+                        self.columns(first.len(), |r, i| r.set.get(i).map(|(_, value)| value));
+                    out["values"] = json!(values);
                 }
             } else {
                 out["sets"] = of(&|r| json!(r.set));
             }
         }
         out
+    }
+}
+
+impl Entries {
+    /// What all rows have at so many places, column by column: [`column`] of each.
+    fn columns<'a>(
+        &'a self,
+        count: usize,
+        of: impl Fn(&'a Entry, usize) -> Option<&'a String>,
+    ) -> Vec<Value> {
+        let text = |r, i| of(r, i).map_or("", String::as_str);
+        (0..count).map(|i| column(self.rows.iter().map(|r| text(r, i)))).collect()
+    }
+}
+
+/// Texts of all rows, each told once: `of` has them, `at` where the one of a row is. Without `at` they stand in the order of the
+/// rows, or there is only one.
+fn column<'a>(texts: impl Iterator<Item = &'a str>) -> Value {
+    let mut places = HashMap::new();
+    let (mut of, mut at) = (Vec::new(), Vec::new());
+    for text in texts {
+        let place = *places.entry(text).or_insert(of.len());
+        if place == of.len() {
+            of.push(text);
+        }
+        at.push(place);
+    }
+    if of.len() == 1 || of.len() == at.len() {
+        json!({ "of": of })
+    } else {
+        json!({ "of": of, "at": at })
     }
 }
 
@@ -85,12 +121,33 @@ mod tests {
         };
         let alike = of(vec![row(&[("a", "1"), ("b", "2")]), row(&[("a", "3"), ("b", "4")])]);
         assert_eq!(alike["names"], json!(["a", "b"]));
-        assert_eq!(alike["values"], json!([["1", "2"], ["3", "4"]]));
+        assert_eq!(alike["values"], json!([{ "of": ["1", "3"] }, { "of": ["2", "4"] }]));
         let shown = Entry { cells: vec!["1".into(), "0.3".into()], ..row(&[("a", "1")]) };
         assert_eq!(of(vec![shown]).get("values"), None);
         let other = of(vec![row(&[("a", "1")]), row(&[("b", "4")])]);
         assert_eq!(other["sets"], json!([[["a", "1"]], [["b", "4"]]]));
         assert_eq!(other.get("names"), None);
+    }
+
+    #[test]
+    fn texts_that_rows_have_alike_are_told_once() {
+        let of = |texts: &[&str]| column(texts.iter().copied());
+        assert_eq!(of(&["a", "b", "a"]), json!({ "of": ["a", "b"], "at": [0, 1, 0] }));
+        assert_eq!(of(&["a", "a"]), json!({ "of": ["a"] }));
+        assert_eq!(of(&["b", "a"]), json!({ "of": ["b", "a"] }));
+        assert_eq!(of(&[]), json!({ "of": [] }));
+        // A row that has no cell there has an empty one.
+        let row = |cells: &[&str]| Entry {
+            cells: cells.iter().map(|c| (*c).to_owned()).collect(),
+            ..Entry::default()
+        };
+        let head = vec![("a".to_owned(), String::new()), ("b".to_owned(), "m".to_owned())];
+        let rows = vec![row(&["1", "2"]), row(&["1"])];
+        let data = Entries { head, rows, ..Entries::default() }.data();
+        assert_eq!(
+            (&data["count"], &data["cells"]),
+            (&json!(2), &json!([{ "of": ["1"] }, { "of": ["2", ""] }]))
+        );
     }
 
     #[test]

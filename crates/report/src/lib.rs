@@ -29,6 +29,6 @@ pub use png::{PngError, png_is_built_in};
 pub use run::{
     Answer, Collect, ENERGY, FaceMark, Family, Frames, GROUND, Ground, GroupMark, History,
     LineKind, LineMark, LinkMark, Loop, MODEL, MemberCurve, Mode, NodeMark, Numbers, Orbit,
-    Picture, Profile, ProfileCurve, RunData, RunIdentity, SPECTRA, Shown, SpectrumChart,
+    Picture, Profile, ProfileCurve, RunData, RunIdentity, SPECTRA, Sections, Shown, SpectrumChart,
     SpectrumCurve, Tint, Tinted, named_figures, run_page, run_update, short,
 };

@@ -6,7 +6,7 @@ use serde_json::Value;
 use std::ops::Deref;
 use std::path::{Path, PathBuf};
 use trilith_model::Model;
-use trilith_report::{Collect, RunData, run_page};
+use trilith_report::{Collect, RunData, Sections, run_page};
 use trilith_results::{FileError, Summary};
 use trilith_solvers::{Linearised, LinkStiffness};
 
@@ -102,11 +102,12 @@ impl Run {
         overrides: &[(String, String)],
         loops: &[String],
     ) -> RunData {
-        self.report_of(analysis, &self.summary(analysis.model()), overrides, loops)
+        let summary = self.summary(analysis.model());
+        self.report_of(analysis, &summary, overrides, loops, &Sections::all())
     }
 
     /// The same with the [summary](Self::summary) of this run, which is there already: its floor spectra take as long as a
-    /// short march.
+    /// short march. What only sections show that are not wanted is left out.
     #[must_use]
     pub fn report_of<M: Deref<Target = Model>>(
         &self,
@@ -114,6 +115,7 @@ impl Run {
         summary: &Summary,
         overrides: &[(String, String)],
         loops: &[String],
+        sections: &Sections,
     ) -> RunData {
         let model = analysis.model();
         let case = model.case(&self.result.case);
@@ -123,7 +125,7 @@ impl Run {
             None if analysis.system().order() <= MODES => analysis.modes(case).ok(),
             None => None,
         };
-        let linear = match analysis.system().order() <= LINKED {
+        let linear = match sections.have("modes") && analysis.system().order() <= LINKED {
             true => analysis.linearised(&LinkStiffness::Engaged, None).ok(),
             false => None,
         };
@@ -140,6 +142,7 @@ impl Run {
             linked: linear.as_ref().zip(linked.as_ref()),
             overrides,
             loops,
+            sections,
         }
         .data()
     }

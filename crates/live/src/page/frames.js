@@ -41,7 +41,9 @@ const frames = (() => {
     front = next;
     if (was) go(of, was);
   };
-  /** Another run, or a draft of one, in the page that is there; false where there is none, or its parts are others. */
-  const renew = (html, draft) => Boolean(front?.contentWindow.renew?.(html, draft));
-  return { show, renew, there: () => Boolean(front) };
+  /** Another run, or some sections of one, in the page that is there; false where there is none, or its parts are others. */
+  const renew = (html) => Boolean(front?.contentWindow.renew?.(html));
+  /** Sections of the page that are on the screen. */
+  const seen = () => front?.contentWindow.onScreen?.() ?? [];
+  return { show, renew, seen, there: () => Boolean(front) };
 })();

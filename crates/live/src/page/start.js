@@ -30,7 +30,7 @@ const shown = (asked, update, change, of) => (answer) => {
     return;
   }
   if (!update) frames.show(answer.page);
-  else if (!frames.renew(answer.page, care === "draft")) { anew = true; run(asked === "draft" ? "plain" : asked); return; }
+  else if (!frames.renew(answer.page)) { anew = true; run(asked === "draft" ? "plain" : asked); return; }
   tell("");
   peaks(answer.peaks);
   say(SAY[care](seconds(answer.ms)));
@@ -40,10 +40,11 @@ function run(care) {
   const update = frames.there() && !anew;
   const { path, text, set, case: of, solver } = state;
   const words = JSON.stringify([set, of, solver, text.length]);
-  engine.ask(care, { ask: "run", path, text, set, case: of, solver, care, update }, shown(care, update, count, words));
+  // A draft is followed by its run: what is not on the screen waits for that.
+  const sections = update && care === "draft" ? frames.seen() : null;
+  engine.ask(care, { ask: "run", path, text, set, case: of, solver, care, update, sections }, shown(care, update, count, words));
 }
 function changed() {
-  command();
   count++;
   clearTimeout(timer);
   // What takes long makes way for a new value.
@@ -51,6 +52,7 @@ function changed() {
   if (goes && goes.ms >= most) engine.stop();
   engine.drop("plain", "errors");
   run(frames.there() && !anew ? "draft" : "plain");
+  command();
   clearTimeout(patience);
   patience = setTimeout(() => say("A long run goes on …"), PATIENCE);
   const errors = () => { anew = false; run("errors"); };

@@ -188,10 +188,9 @@ function mark(chart, { s, i, p }) {
 
 /** The row of the page that a point stands for: its cells, its link, or the command that makes it. */
 function entry(row) {
-  const { name, head: heads, rows, links, command } = entries;
-  const cells = rows[row];
-  if (!cells) return [];
-  const shown = heads.map(([what, unit], k) => [null, what, cells[k], unit]).filter((r) => r[2] !== "");
+  const { name, head: heads, count, cells, links, command } = entries;
+  if (!(row < count)) return [];
+  const shown = heads.map(([what, unit], k) => [null, what, textOf(cells[k], row), unit]).filter((r) => r[2] !== "");
   const out = [head(`${name} ${row + 1}`), table(shown)];
   // Links are relative to the page; nothing else is followed.
   if (links?.[row] && !/^[a-z][a-z0-9+.-]*:/i.test(links[row])) out.push(make("a", { href: links[row] }, "open its folder"));
@@ -205,7 +204,10 @@ function entry(row) {
 }
 
 /** What a row sets: pairs of name and value. */
-const settings = (row) => [...(entries.common ?? []), ...(entries.names?.map((n, i) => [n, (entries.values ?? entries.rows)[row][i]]) ?? entries.sets?.[row] ?? [])];
+const settings = (row) => [...(entries.common ?? []), ...(entries.names?.map((n, i) => [n, textOf((entries.values ?? entries.cells)[i], row)]) ?? entries.sets?.[row] ?? [])];
+
+/** What a row has in a column, which tells each of its texts once. */
+const textOf = ({ of, at }, row) => of[at ? at[row] : of.length > 1 ? row : 0];
 
 /** A word of a command line as a shell takes it. */
 const quoted = (word) => (/^[\p{L}\p{N}\-_=./,:+%@]+$/u.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`);

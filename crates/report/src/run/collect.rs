@@ -3,7 +3,7 @@
 use super::data::{Frames, Mode, Numbers, RunData, RunIdentity};
 use super::figures::SUPPLY;
 use super::picture::Sketch;
-use super::{answers, choice, loops, members, places, reduce, settings, shaking, tints};
+use super::{Sections, answers, choice, loops, members, places, reduce, settings, shaking, tints};
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use trilith_model::Model;
@@ -41,6 +41,13 @@ pub struct Collect<'a> {
     pub overrides: &'a [(String, String)],
     /// Links whose loops are wanted, by name; empty: those that dissipate most.
     pub loops: &'a [String],
+    /// Sections of the page that are wanted: what only others show is left out.
+    pub sections: &'a Sections,
+}
+
+/// What is made where it is wanted.
+fn some<T: Default>(wanted: bool, make: impl FnOnce() -> T) -> T {
+    if wanted { make() } else { T::default() }
 }
 
 impl Collect<'_> {
@@ -50,7 +57,7 @@ impl Collect<'_> {
         let sketch = Sketch::new(self.model);
         let mut notes: Vec<String> = sketch.note.iter().cloned().collect();
         let file = self.model.source.path.file_name();
-        let (frames, modes) = (self.frames(&sketch), self.modes(&sketch));
+        let has = |id| self.sections.have(id);
         let outputs = self.model.shown().count();
         let shown = self.chosen();
         let count = shown.iter().filter(|s| **s).count();
@@ -60,13 +67,19 @@ impl Collect<'_> {
                  are in peaks.csv, all histories in histories.csv and .npz."
             ));
         }
-        let motions = ground_motions(self.model, self.case, self.dt.unwrap_or(0.0));
+        // Profiles of accelerations begin at the ground.
+        let motions = some(has("ground") || has("profiles"), || {
+            ground_motions(self.model, self.case, self.dt.unwrap_or(0.0))
+        });
         let ground = shaking::ground(&motions);
-        let loops = loops::chosen(self.model, self.record, self.summary, self.loops);
+        let loops =
+            some(has("loops"), || loops::chosen(self.model, self.record, self.summary, self.loops));
         let with_figure = self.model.shown().zip(&shown).filter(|(_, s)| **s).map(|((i, _), _)| i);
         let tints = tints::tints(self.model, &sketch.marks, &sketch.picture, with_figure, &loops);
         let (members, left_out) = members::curves(self.model, self.record);
         notes.extend(left_out);
+        let frames = some(has("motion"), || self.frames(&sketch));
+        let modes = some(has("modes"), || self.modes(&sketch));
         let free = self.modes.map_or(0, |m| m.omega.iter().filter(|omega| **omega <= 0.0).count());
         RunData {
             format: RunData::FORMAT,
@@ -86,17 +99,16 @@ impl Collect<'_> {
             tints,
             frames,
             outputs: self.model.shown().map(|(_, o)| o.name.clone()).collect(),
-            profiles: match self.summary.contact {
-                None => places::profiles(self.model, self.summary, &ground),
-                Some(_) => Vec::new(),
-            },
-            members,
-            orbits: places::orbits(self.model, self.record),
+            profiles: some(self.summary.contact.is_none() && has("profiles"), || {
+                places::profiles(self.model, self.summary, &ground)
+            }),
+            members: some(has("members"), || members),
+            orbits: some(has("plan"), || places::orbits(self.model, self.record)),
             ground,
-            ground_spectra: shaking::ground_spectra(&motions),
-            histories: self.histories(&shown),
-            floor_spectra: shaking::floor_spectra(self.summary),
-            energies: self.energies(),
+            ground_spectra: some(has("ground"), || shaking::ground_spectra(&motions)),
+            histories: some(has("histories"), || self.histories(&shown)),
+            floor_spectra: some(has("floors"), || shaking::floor_spectra(self.summary)),
+            energies: some(has("energy"), || self.energies()),
             loops,
             modes,
             free_modes: free,

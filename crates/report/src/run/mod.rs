@@ -15,6 +15,7 @@ mod picture;
 mod places;
 mod reduce;
 mod script;
+mod sections;
 mod settings;
 mod shaking;
 mod texts;
@@ -31,3 +32,4 @@ pub use data::{
 };
 pub use figures::{ENERGY, GROUND, MODEL, SPECTRA, named_figures};
 pub use page::{run_page, run_update};
+pub use sections::Sections;

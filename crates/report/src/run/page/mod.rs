@@ -10,7 +10,8 @@ mod rounding;
 mod settings;
 mod shaking;
 
-use super::{Frames, Mode, Numbers, Picture, RunData, Tint, legible, script};
+use super::sections::SECTIONS;
+use super::{Frames, Mode, Numbers, Picture, RunData, Sections, Tint, legible, script};
 use crate::chart::Scales;
 use crate::page::STYLE;
 use crate::{Figure, chart};
@@ -18,31 +19,16 @@ use base64::prelude::{BASE64_STANDARD, Engine as _};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use serde::Serialize;
 use serde_json::Value;
+use std::hash::{DefaultHasher, Hash, Hasher};
 
 const RUN_STYLE: &str = include_str!("../run.css");
-
-/// Links to the sections.
-const SECTIONS: [(&str, &str); 12] = [
-    ("motion", "Model and motion"),
-    ("peaks", "Peaks"),
-    ("ground", "Ground motion"),
-    ("histories", "Time histories"),
-    ("profiles", "Over the height"),
-    ("members", "Forces along members"),
-    ("plan", "Paths in plan"),
-    ("floors", "Floor spectra"),
-    ("energy", "Energy"),
-    ("loops", "Hysteresis loops"),
-    ("modes", "Mode shapes"),
-    ("settings", "Settings and work"),
-];
 
 /// The page of a run as one HTML document without network: still figures, and a script of ours that makes
 /// them move. `summary` is `summary.json`, `made` is `made_by.json`, null where there is none; a key that is missing
 /// leaves its place empty.
 #[must_use]
 pub fn run_page(summary: &Value, data: &RunData, made: &Value) -> String {
-    let parts = Parts::of(summary, data, made, true);
+    let parts = Parts::of(summary, data, made, &Sections::all(), true);
     html! {
         (DOCTYPE)
         html lang="en" {
@@ -63,10 +49,10 @@ pub fn run_page(summary: &Value, data: &RunData, made: &Value) -> String {
 }
 
 /// What a page of another run of the same model shows, for `renew` of its script to put in the place of what it shows: no
-/// still pictures, no style, no script.
+/// still pictures, no style, no script. Of some sections: these alone, beside the head of the page; `data` need have no more.
 #[must_use]
-pub fn run_update(summary: &Value, data: &RunData, made: &Value) -> String {
-    let parts = Parts::of(summary, data, made, false);
+pub fn run_update(summary: &Value, data: &RunData, made: &Value, sections: &Sections) -> String {
+    let parts = Parts::of(summary, data, made, sections, false);
     html! { title { (parts.title) } (parts.shown) }.into_string()
 }
 
@@ -77,7 +63,7 @@ struct Parts {
 }
 
 impl Parts {
-    fn of(summary: &Value, data: &RunData, made: &Value, still: bool) -> Self {
+    fn of(summary: &Value, data: &RunData, made: &Value, wanted: &Sections, still: bool) -> Self {
         let (summary, made) = (&legible::summary(summary), &legible::summary(made));
         let data = legible::data(data);
         let data: &RunData = &data;
@@ -111,38 +97,63 @@ impl Parts {
             "modes" => modes::modes(data, still),
             _ => settings::settings(summary, data),
         };
-        let sections: Vec<_> = SECTIONS.iter().filter(|(id, _)| there(id)).collect();
+        let sections: Vec<_> =
+            SECTIONS.iter().filter(|(id, _)| wanted.have(id) && there(id)).collect();
         let shown = html! {
-            main {
+            main data-model=(identity(data)) {
                 h1 { (title) }
                 (facts::facts(summary, data))
                 // One part, whether there are any or none: another run may take this one's place.
                 div { (facts::warnings(summary, data)) }
-                nav aria-label="Contents" {
-                    ol { @for (id, head) in &sections { li { a href={ "#" (id) } { (head) } } } }
+                @if wanted.are_all() {
+                    nav aria-label="Contents" {
+                        ol { @for (id, head) in &sections { li { a href={ "#" (id) } { (head) } } } }
+                    }
                 }
                 @for (id, head) in &sections { section id=(id) { h2 { (head) } (body(id)) } }
             }
-            footer id="made" { (settings::made(summary, data, made)) }
-            (chart::json("", Some("data"), &embedded(data)))
-            script type="text/plain" id="shapes" { (PreEscaped(shapes(data))) }
+            @if wanted.are_all() { footer id="made" { (settings::made(summary, data, made)) } }
+            (chart::json("", Some("data"), &embedded(data, wanted)))
+            @if wanted.have("motion") {
+                script type="text/plain" id="shapes" { (PreEscaped(shapes(data))) }
+            }
         };
         let [case, solver] = [&summary["case"], &summary["solver"]].map(text);
         Self { title: format!("{title} – {case} – {solver}"), shown }
     }
 }
 
-/// What the script draws beside the figures: the model, the times of its deformed shapes, the modes.
-fn embedded(data: &RunData) -> impl Serialize {
+/// What the script draws beside the figures: the times of deformed shapes, the modes; of all sections also the model and
+/// what colours it.
+fn embedded<'a>(data: &'a RunData, wanted: &Sections) -> impl Serialize + use<'a> {
     #[derive(Serialize)]
     struct Embedded<'a> {
-        picture: &'a Picture,
-        tints: &'a [Tint],
-        frames: Frames,
-        modes: &'a [Mode],
+        #[serde(skip_serializing_if = "Option::is_none")]
+        picture: Option<&'a Picture>,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        tints: Option<&'a [Tint]>,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        frames: Option<Frames>,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        modes: Option<&'a [Mode]>,
     }
-    let frames = Frames { t: data.frames.t.clone(), u: Numbers { n: Vec::new(), ..data.frames.u } };
-    Embedded { picture: &data.picture, tints: &data.tints, frames, modes: &data.modes }
+    let frames =
+        || Frames { t: data.frames.t.clone(), u: Numbers { n: Vec::new(), ..data.frames.u } };
+    let [all, motion, modes] = [wanted.are_all(), wanted.have("motion"), wanted.have("modes")];
+    Embedded {
+        picture: all.then_some(&data.picture),
+        tints: all.then_some(&data.tints),
+        frames: motion.then(frames),
+        modes: modes.then_some(&data.modes),
+    }
+}
+
+/// Tells the model of one page from that of another: what only a new page takes.
+fn identity(data: &RunData) -> String {
+    let mut hasher = DefaultHasher::new();
+    // What cannot be written is the same as itself.
+    serde_json::to_string(&data.picture).unwrap_or_default().hash(&mut hasher);
+    format!("{:016x}", hasher.finish())
 }
 
 /// The deformed shapes, which are most of the page of a large model: two bytes a number, the low one first, in

@@ -99,7 +99,8 @@ function player(canvas, controls, tip) {
       select("speed", [0.05, 0.1, 0.25, 0.5, 1, 2, 5, 10], speed, (v) => `× ${v}`, (v) => { speed = Number(v); }),
       scale, warning);
     say();
-    renewals.push((next) => {
+    renewals.push((fresh, next) => {
+      if (!fresh.frames) return;
       reframe();
       [end, most] = [frames.t.at(-1), farthest()];
       // Who has chosen a scale keeps it.
@@ -111,7 +112,7 @@ function player(canvas, controls, tip) {
       // Not on the way of what is seen.
       later(say);
       stage.retint?.();
-      stage.draw();
+      requestAnimationFrame(() => stage.draw());
     });
   }
   controls.append(...views(stage));
@@ -196,6 +197,6 @@ function mode(canvas) {
     stage.draw();
   };
   new IntersectionObserver(([e]) => { seen = e.isIntersecting; renewed(); }, { rootMargin: "400px" }).observe(canvas);
-  renewals.push(() => { stale = true; renewed(); });
+  renewals.push((fresh) => { if (fresh.modes) stale = true; renewed(); });
   stage.draw();
 }

@@ -1,7 +1,7 @@
 // Another run of the same model in the place of this one, without a new start: figures take other points, texts and tables
 // are replaced where they differ, the model moves otherwise. Zoom, time and what is open or hidden stay.
 
-/** What is told that there are other deformed shapes. */
+/** What is told that there are other deformed shapes, `frames` or `modes`. */
 const renewals = [];
 
 /** Elements that the page makes for itself, beside what it came with. */
@@ -40,27 +40,23 @@ function changes(a, b, out) {
   return out;
 }
 
-/** The same of the whole page, whose sections may come and go; of a draft, of those on the screen. */
-function changesOfAll(a, b, out, draft) {
-  const seen = (section) => {
-    const { top, bottom } = section.getBoundingClientRect();
-    return bottom > 0 && top < innerHeight;
-  };
-  const heads = (e) => [...e.children].filter((c) => c.localName !== "section");
+/** The same of the whole page, whose sections may come and go; or of some sections and of what stands before them. */
+function changesOfAll(a, b, out, all) {
+  const heads = (e) => [...e.children].filter((c) => c.localName !== "section" && (all || c.localName !== "nav"));
   const old = heads(a), now = heads(b), sections = new Map([...a.children].filter((c) => c.localName === "section").map((s) => [s.id, s]));
   if (old.length !== now.length || !old.every((e, i) => e.nodeName === now[i].nodeName && changes(e, now[i], out))) return null;
   let last = old.at(-1);
   for (const section of b.querySelectorAll("section")) {
     const there = sections.get(section.id), before = last;
     if (!there && section.querySelector(FIXED)) return null;
-    if (there && (!draft || seen(there)) && !changes(there, section, out)) return null;
+    if (there && !changes(there, section, out)) return null;
     sections.delete(section.id);
     last = there ?? section;
-    if (!there) out.push(() => { before.after(section); begin(section); });
+    if (!there) out.push(() => { before.after(section); begin(section); watch.observe(section); });
   }
-  for (const gone of sections.values()) {
+  if (all) for (const gone of sections.values()) {
     if (gone.querySelector(FIXED)) return null;
-    out.push(() => { refill(gone, document.createElement("section")); gone.remove(); });
+    out.push(() => { refill(gone, document.createElement("section")); gone.remove(); watch.unobserve(gone); seen.delete(gone.id); });
   }
   return out;
 }
@@ -73,27 +69,35 @@ function later(work) {
   waiting = begin.call(window, work);
 }
 
-/** The model of the page, which stays: as a text, to be compared. */
-let known = null;
+/** Sections on the screen, by their ids. */
+const seen = new Set();
+const watch = new IntersectionObserver((all) => {
+  for (const { target, isIntersecting } of all) seen[isIntersecting ? "add" : "delete"](target.id);
+});
+for (const section of document.querySelectorAll("main > section")) watch.observe(section);
+window.onScreen = () => [...seen];
 
-/** Takes what `run_update` made; false where the model is another, or the page has other stages: nothing is changed then.
- *  A draft is followed by its run: what is not on the screen waits for that. */
-window.renew = (text, draft = false) => {
+/** Takes what `run_update` made; false where the model is another, or the page has other stages: nothing is changed then. */
+window.renew = (text) => {
   const next = new DOMParser().parseFromString(text, "text/html");
   const of = (page, id) => page.getElementById(id);
-  const fresh = JSON.parse(of(next, "data").textContent), all = [];
-  const model = ({ picture, modes, frames }) => JSON.stringify([picture, modes.length, frames.t.length > 1]);
-  known ??= model(JSON.parse(of(document, "data").textContent));
-  if (model(fresh) !== known) return false;
-  if (!changesOfAll(document.querySelector("main"), next.querySelector("main"), all, draft)) return false;
-  if (!changes(of(document, "made"), of(next, "made"), all)) return false;
+  const [old, now] = [document, next].map((page) => page.querySelector("main"));
+  if (old.dataset.model !== now.dataset.model) return false;
+  const fresh = JSON.parse(of(next, "data").textContent), changed = [];
+  const moves = (frames) => frames.t.length > 1;
+  if (fresh.modes && fresh.modes.length !== data.modes.length) return false;
+  if (fresh.frames && moves(fresh.frames) !== moves(data.frames)) return false;
+  // Of all sections, or of some.
+  const made = of(next, "made");
+  if (!changesOfAll(old, now, changed, Boolean(made))) return false;
+  if (made && !changes(of(document, "made"), made, changed)) return false;
   document.title = next.title;
-  for (const change of all) change();
+  for (const change of changed) change();
   // Pictures on paper would be those of before: the charts are printed as they are.
   for (const still of document.querySelectorAll("figure > .chart ~ svg, .still")) still.remove();
-  Object.assign(data, { frames: fresh.frames, modes: fresh.modes, tints: fresh.tints });
-  for (const id of ["data", "shapes"]) of(document, id).textContent = of(next, id).textContent;
+  Object.assign(data, fresh);
+  for (const id of made ? ["data", "shapes"] : fresh.frames ? ["shapes"] : []) of(document, id).textContent = of(next, id).textContent;
   drawings = null;
-  for (const tell of renewals) tell(of(next, "player")?.dataset.scale);
+  for (const tell of renewals) tell(fresh, of(next, "player")?.dataset.scale);
   return true;
 };
