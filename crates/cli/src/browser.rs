@@ -6,7 +6,10 @@ use std::path::Path;
 
 /// Opens a page where that is wanted. What was found is there without a browser as well.
 pub(crate) fn show(wanted: bool, page: &Path) {
-    if let (true, Err(failure)) = (wanted, open(page, "")) {
+    if !wanted {
+        return;
+    }
+    if let Err(failure) = open(page, "") {
         output::tell(&failure.text);
     }
 }
