@@ -78,7 +78,7 @@ impl<'a> CustomRule<'a> {
     }
 
     /// Makes the step of a length; the first one is tried before it is trusted.
-    fn make(&mut self, key: StepKey) -> Result<Kept, SolveError> {
+    fn make(&mut self, key: &StepKey) -> Result<Kept, SolveError> {
         let made = self.solver.integrator.step(&self.structure, key.dt);
         let mut step = made.map_err(|reason| self.refused(reason))?;
         if self.steps.is_empty()
@@ -94,7 +94,7 @@ impl<'a> CustomRule<'a> {
     fn compliance_of(
         &self,
         step: &mut dyn LinearStep,
-        key: StepKey,
+        key: &StepKey,
     ) -> Result<Compliance, SolveError> {
         let links = &self.structure.space.links;
         let (n, m) = (self.structure.space.order(), links.len());
@@ -118,7 +118,7 @@ impl<'a> CustomRule<'a> {
                 )));
             }
         }
-        Ok(Compliance::full(g, h, key))
+        Ok(Compliance::full(g, h, key.clone()))
     }
 
     /// The end of the step prepared last, under pseudo-forces at its end.
@@ -177,7 +177,7 @@ impl Propagator for CustomRule<'_> {
         self.structure.factorizations()
     }
 
-    fn prepare(&mut self, key: StepKey) -> Result<(), SolveError> {
+    fn prepare(&mut self, key: &StepKey) -> Result<(), SolveError> {
         self.now = key.dt.to_bits();
         self.clock += 1;
         if let Some(kept) = self.steps.get_mut(&self.now) {

@@ -87,7 +87,7 @@ impl Propagator for Modal {
         self.modes.choose(dt, stiffness, stiffest)
     }
 
-    fn prepare(&mut self, key: StepKey) -> Result<(), SolveError> {
+    fn prepare(&mut self, key: &StepKey) -> Result<(), SolveError> {
         self.modes.prepare(key);
         Ok(())
     }

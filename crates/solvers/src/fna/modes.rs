@@ -2,7 +2,7 @@
 
 use super::{LONGEST, ModalLoads};
 use crate::kernel::{Compliance, ComplianceMatrix, ModalCompliance, StepKey};
-use crate::modal::{ClosedForm, Recurrence, Structure, bit};
+use crate::modal::{ClosedForm, ModeSet, Recurrence, Structure};
 use crate::step::StepWork;
 use crate::structure::{Motion, ReducedSystem, accelerate_at_once};
 use std::sync::Arc;
@@ -44,6 +44,9 @@ pub(crate) struct Modes {
     pub(super) beyond: Option<f64>,
     /// √k of the links as they are.
     root: Vec<f64>,
+    /// The modes that moved by average acceleration last, and room to find them.
+    average: ModeSet,
+    room: Vec<u64>,
 }
 
 impl Modes {
@@ -76,6 +79,8 @@ impl Modes {
             now: (0, None),
             beyond: None,
             root: Vec::new(),
+            average: ModeSet::default(),
+            room: Vec::new(),
         }
     }
 
@@ -91,8 +96,7 @@ impl Modes {
     #[cold]
     fn other_size(&mut self, dt: f64) -> usize {
         self.steps.iter().position(|s| s.dt == dt).unwrap_or_else(|| {
-            let exact =
-                self.operator(Recurrence::exact(&self.structure, dt), StepKey { dt, average: 0 });
+            let exact = self.operator(Recurrence::exact(&self.structure, dt), StepKey::exact(dt));
             let of_modes = self.compliance_of(&exact.recurrence, 1, self.structure.modes);
             let ratio = ratio(&of_modes, &self.engaged);
             let numbers = exact.compliance.stored() + 12 * self.space.order();
@@ -121,7 +125,7 @@ impl Modes {
     ) -> StepKey {
         let size = self.size(dt);
         let step = &self.steps[size];
-        let mut average = 0;
+        let mut average = ModeSet::default();
         if step.ratio > LONGEST {
             self.root.clear();
             self.root.extend(stiffness.map(|k| k.max(0.0).sqrt()));
@@ -135,17 +139,19 @@ impl Modes {
     }
 
     /// The modes that hang on links which are or have been stiff: one that slips now may stick within the step.
-    fn held(&mut self, dt: f64, stiffest: &[f64]) -> u64 {
-        if self.structure.damping.is_some() {
-            return u64::MAX;
+    fn held(&mut self, dt: f64, stiffest: &[f64]) -> ModeSet {
+        let Self { space, structure, root, average, room, .. } = self;
+        if structure.damping.is_some() {
+            average.renew(structure.modes.max(1), |_| true, room);
+            return average.clone();
         }
-        self.root.clear();
-        self.root.resize(self.space.order(), 0.0);
+        root.clear();
+        root.resize(space.order(), 0.0);
         for (a, k) in stiffest.iter().enumerate().filter(|(_, k)| **k > 0.0) {
-            self.space.links.row(a).for_each(|(j, b)| self.root[j] += k * b * b);
+            space.links.row(a).for_each(|(j, b)| root[j] += k * b * b);
         }
-        let shares = self.root[..self.structure.modes].iter().enumerate();
-        shares.filter(|(_, k)| *k * dt * dt / 6.0 > FREE).fold(0, |all, (j, _)| all | bit(j))
+        average.renew(structure.modes, |j| root[j] * dt * dt / 6.0 > FREE, room);
+        average.clone()
     }
 
     /// Largest G·k of the engaged links for a step size.
@@ -200,17 +206,17 @@ impl Modes {
 
     /// Prepares for steps.
     #[inline]
-    pub(crate) fn prepare(&mut self, key: StepKey) {
+    pub(crate) fn prepare(&mut self, key: &StepKey) {
         let size = self.size(key.dt);
         self.now = (size, None);
-        if key.average == 0 {
+        if key.average.is_empty() {
             return;
         }
         let others = &self.steps[size].others;
-        let at = others.iter().position(|o| o.compliance.key == key).unwrap_or(others.len());
+        let at = others.iter().position(|o| o.compliance.key == *key).unwrap_or(others.len());
         if at == others.len() {
-            let operator =
-                self.operator(Recurrence::mixed(&self.structure, key.dt, key.average), key);
+            let operator = self
+                .operator(Recurrence::mixed(&self.structure, key.dt, &key.average), key.clone());
             self.steps[size].others.push(operator);
         }
         self.now = (size, Some(at));

@@ -259,13 +259,13 @@ impl<'a> MovingBasis<'a> {
         &mut self,
         [from, to]: [&State; 2],
         [start, end]: [f64; 2],
-        key: StepKey,
+        key: &StepKey,
     ) -> Result<Motion, SolveError> {
         let mut sum = vec![0.0; to.motion.len()];
         self.work = 0.0;
         for side in 0..4 {
             let turn = &self.turns[side];
-            if key.average != 0 && !turn.in_order {
+            if !key.average.is_empty() && !turn.in_order {
                 return Err(SolveError::NoGradient {
                     reason: format!(
                         "beside the value of `{}` modes change places at t = {end:.6} s, where some of them step by average acceleration; `--solver hht` gives derivatives by it",

@@ -227,7 +227,7 @@ impl<'a> Moves<'a> {
             ..
         } = self;
         let key = propagator.choose(dt, &mut links.stiffness(&from.tangents), &from.stiffest);
-        propagator.prepare(key)?;
+        propagator.prepare(&key)?;
         let n = propagator.space().order();
         // Loads, and what is known of the deformations at the end.
         for (j, influence) in influences.iter().enumerate() {
@@ -265,7 +265,7 @@ impl<'a> Moves<'a> {
             next.motion.resize(3 * n, 0.0);
             propagator.predict(&now.motion, &forces, &mut next.motion, wanted);
             if let Some(moving) = &mut moving[j] {
-                work.moved[j] = moving.step([from, to], [self.t, t], key)?;
+                work.moved[j] = moving.step([from, to], [self.t, t], &key)?;
                 let moved = &work.moved[j];
                 let map = &propagator.space().links;
                 map.deform(&moved[..n], &mut work.own);

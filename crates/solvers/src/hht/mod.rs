@@ -155,7 +155,7 @@ impl Propagator for Hht {
         self.factorizations
     }
 
-    fn prepare(&mut self, key: StepKey) -> Result<(), SolveError> {
+    fn prepare(&mut self, key: &StepKey) -> Result<(), SolveError> {
         let dt = key.dt;
         self.now = dt.to_bits();
         self.clock += 1;

@@ -44,7 +44,7 @@ impl Step {
         let mut h = g.clone();
         g.values_mut().iter_mut().for_each(|x| *x *= w * beta * dt * dt);
         h.values_mut().iter_mut().for_each(|x| *x *= w * gamma * dt);
-        let compliance = Compliance::full(g, h, StepKey { dt, average: 0 });
+        let compliance = Compliance::full(g, h, StepKey::exact(dt));
         Ok(Self { factor, woodbury, compliance, dt, used: 0 })
     }
 

@@ -127,7 +127,7 @@ fn follows(alpha: f64, modal: bool, links: LinkMap) {
         let u1: Vec<f64> = (0..N).map(|i| ahead[i] + beta * dt * dt * now[i]).collect();
         let v1: Vec<f64> = (0..N).map(|i| rate[i] + gamma * dt * now[i]).collect();
 
-        hht.prepare(StepKey { dt, average: 0 }).unwrap();
+        hht.prepare(&StepKey::exact(dt)).unwrap();
         let (mut d, mut velocity, mut to) = (vec![0.0; l], vec![0.0; l], vec![f64::NAN; 3 * N]);
         let before = Forces { loads: [&load0, &load1], pseudo0: &pseudo0, pseudo1: &guess };
         let all: Vec<usize> = (0..l).collect();

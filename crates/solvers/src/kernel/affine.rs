@@ -1,17 +1,24 @@
 //! What a step gives the link kernel, and what it takes from it.
 
 use super::{ComplianceMatrix, Extrapolation};
+use crate::modal::ModeSet;
 use serde::{Deserialize, Serialize};
 use trilith_system::{Answers, Tangents};
 
 /// What the matrices of a step depend on.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct StepKey {
     /// Length, s.
     pub dt: f64,
-    /// Modes that move by average acceleration, where the exact rule would go too far: a bit each, the
-    /// last one for all from the 64th on.
-    pub average: u64,
+    /// Modes that move by average acceleration, where the exact rule would go too far.
+    pub average: ModeSet,
+}
+
+impl StepKey {
+    /// Of a step of a length, s, that no mode makes by average acceleration.
+    pub fn exact(dt: f64) -> Self {
+        Self { dt, average: ModeSet::default() }
+    }
 }
 
 /// What the link equations need of a prediction: deformations of the active coordinates, and the rates of those that
@@ -30,7 +37,7 @@ pub(crate) struct Affine<'a> {
     pub g: &'a ComplianceMatrix,
     pub h: &'a ComplianceMatrix,
     /// Identity of the compliances: a factor made with others is not used again.
-    pub key: StepKey,
+    pub key: &'a StepKey,
 }
 
 /// The committed side of a step, flat.

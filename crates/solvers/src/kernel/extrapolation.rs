@@ -35,8 +35,8 @@ pub(crate) struct Extrapolation {
 
 impl Extrapolation {
     /// Adds what the next step expects; false where it expects nothing.
-    pub fn expect(&self, key: StepKey, residual: &mut [f64]) -> bool {
-        let extrapolated = self.extrapolated(residual.len()).filter(|_| self.key == key);
+    pub fn expect(&self, key: &StepKey, residual: &mut [f64]) -> bool {
+        let extrapolated = self.extrapolated(residual.len()).filter(|_| self.key == *key);
         extrapolated.map(|extrapolated| add(residual, extrapolated)).is_some()
     }
 
@@ -48,10 +48,11 @@ impl Extrapolation {
 
     /// Becomes what the step after this one knows: `from` is what this one knew, and `residual` what its guess
     /// left; `expected`: whether the guess held what was to be expected.
-    pub fn note(&mut self, from: &Self, key: StepKey, residual: &[f64], expected: bool) {
+    pub fn note(&mut self, from: &Self, key: &StepKey, residual: &[f64], expected: bool) {
         let n = residual.len();
         let filled = n.next_multiple_of(Panel::GRAIN);
-        (self.key, self.known, self.order) = (key, 1, 0);
+        self.key.clone_from(key);
+        (self.known, self.order) = (1, 0);
         self.expected.resize(ORDERS * filled, 0.0);
         let last = &mut self.expected[..n];
         match from.extrapolated(n).filter(|_| expected) {
@@ -62,7 +63,7 @@ impl Extrapolation {
             }
             None => last.copy_from_slice(residual),
         }
-        if from.key != key || from.expected.len() != self.expected.len() || n == 0 {
+        if from.key != *key || from.expected.len() != self.expected.len() || n == 0 {
             self.expected[filled..].fill(0.0);
             return;
         }
@@ -84,17 +85,15 @@ impl Extrapolation {
 mod tests {
     use super::*;
 
-    const KEY: StepKey = StepKey { dt: 0.01, average: 0 };
-
     /// Leads it through steps that leave these remainders; gives back what each guess left of them.
     fn lead(remainders: &[f64]) -> (Extrapolation, Vec<f64>) {
         let mut known = Extrapolation::default();
         let left = remainders.iter().map(|e| {
             let mut extrapolated = [0.0];
-            let expected = known.expect(KEY, &mut extrapolated);
+            let expected = known.expect(&StepKey::exact(0.01), &mut extrapolated);
             let left = e - extrapolated[0];
             let mut next = Extrapolation::default();
-            next.note(&known, KEY, &[left], expected);
+            next.note(&known, &StepKey::exact(0.01), &[left], expected);
             known = next;
             left
         });
@@ -134,9 +133,7 @@ mod tests {
     fn steps_of_another_length_start_anew() {
         let (known, _) = lead(&[1.0, 1.0, 1.0]);
         let mut extrapolated = [0.0];
-        assert!(known.expect(KEY, &mut extrapolated) && extrapolated == [1.0]);
-        assert!(
-            !known.expect(StepKey { dt: 0.005, ..KEY }, &mut extrapolated) && extrapolated == [1.0]
-        );
+        assert!(known.expect(&StepKey::exact(0.01), &mut extrapolated) && extrapolated == [1.0]);
+        assert!(!known.expect(&StepKey::exact(0.005), &mut extrapolated) && extrapolated == [1.0]);
     }
 }

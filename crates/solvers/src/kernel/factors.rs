@@ -45,7 +45,7 @@ pub(super) struct Equations<'a> {
     pub g: &'a ComplianceMatrix,
     pub h: &'a ComplianceMatrix,
     /// Identity of the compliances: a factor made with others is not used again.
-    pub key: StepKey,
+    pub key: &'a StepKey,
 }
 
 /// From the residual of all active coordinates to
@@ -77,7 +77,7 @@ impl Factors {
     /// For a checkpoint.
     pub fn memory(&self) -> Vec<Remembered> {
         let one = |f: &Factor| Remembered {
-            key: f.key,
+            key: f.key.clone(),
             k: f.tangents.k.clone(),
             c: f.tangents.c.clone(),
         };
@@ -86,13 +86,13 @@ impl Factors {
 
     /// True where there is one for a rule.
     #[inline]
-    pub fn have(&self, key: StepKey) -> bool {
-        self.0.iter().rev().any(|f| f.key == key)
+    pub fn have(&self, key: &StepKey) -> bool {
+        self.0.iter().rev().any(|f| f.key == *key)
     }
 
     /// Forgets the factor of a rule.
-    pub fn forget(&mut self, key: StepKey) {
-        self.0.retain(|f| f.key != key);
+    pub fn forget(&mut self, key: &StepKey) {
+        self.0.retain(|f| f.key != *key);
     }
 
     /// Makes a factor and keeps it.
@@ -115,7 +115,7 @@ impl Factors {
         good: impl FnOnce(&Factor) -> bool,
     ) -> &Factor {
         // Mostly the one used last.
-        let at = self.0.iter().rposition(|f| f.key == of.key);
+        let at = self.0.iter().rposition(|f| f.key == *of.key);
         match at.filter(|at| good(&self.0[*at])) {
             Some(at) => {
                 let last = self.0.len() - 1;
@@ -132,6 +132,7 @@ impl Factors {
 impl Factor {
     fn new(of: Equations<'_>, tangents: Tangents) -> Self {
         let Equations { layout, g, h, key } = of;
+        let key = key.clone();
         let (g, h) = match (g, h) {
             (ComplianceMatrix::Modal(g), ComplianceMatrix::Modal(h)) => {
                 let jacobian = ModalJacobian::new(layout, &tangents, [g, h], HOLD);

@@ -171,7 +171,7 @@ impl<'a> LinkKernel<'a> {
     pub(crate) fn recall(&mut self, memory: Remembered, compliance: &Compliance) {
         let Compliance { g, h, .. } = compliance;
         let Remembered { key, k, c } = memory;
-        let of = Equations { layout: &self.layout, g, h, key };
+        let of = Equations { layout: &self.layout, g, h, key: &key };
         self.factors.make(of, Tangents { k, c });
     }
 
@@ -403,7 +403,7 @@ impl<'a> LinkKernel<'a> {
     }
 
     /// True where the factor of a rule is there and serves whatever the tangents are.
-    fn keeps(&self, key: StepKey) -> bool {
+    fn keeps(&self, key: &StepKey) -> bool {
         self.is_large() && self.factors.have(key)
     }
 
@@ -412,7 +412,7 @@ impl<'a> LinkKernel<'a> {
         let chord = self.is_large() && !slow;
         let Self { layout, factors, residual, correction, unknowns, .. } = self;
         let Affine { g, h, key, .. } = affine;
-        let of = Equations { layout, g, h, key: *key };
+        let of = Equations { layout, g, h, key };
         let factor = factors.take(of, tangents, |kept| chord || kept.tangents == *tangents);
         Parts { factor, residual, correction, unknowns }
     }

@@ -5,9 +5,11 @@
 
 mod closed_form;
 mod coupled;
+mod mode_set;
 mod recurrence;
 pub(crate) mod single_mode;
 
 pub(crate) use closed_form::ClosedForm;
-pub(crate) use recurrence::{Recurrence, Structure, bit};
+pub(crate) use mode_set::ModeSet;
+pub(crate) use recurrence::{Recurrence, Structure};
 pub(crate) use single_mode::Mode;

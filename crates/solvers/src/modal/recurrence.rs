@@ -12,6 +12,7 @@
 //! q̈ = s_q − Ω² q − D q̇ − Eᵀ ẏ        G ẏ = s_y − κ y − E q̇
 //! ```
 
+use super::ModeSet;
 use super::coupled::{Blocks, Coupled};
 use super::single_mode;
 use crate::structure::JUMPED;
@@ -92,10 +93,9 @@ impl Recurrence {
         Self::new(structure, dt, |_| false)
     }
 
-    /// Average acceleration of the modes whose bit is set, exact for the others; of all where damping
-    /// couples them.
-    pub(crate) fn mixed(structure: &Structure, dt: f64, average: u64) -> Self {
-        Self::new(structure, dt, |mode| average & bit(mode) != 0)
+    /// Average acceleration of some modes, exact for the others; of all where damping couples them.
+    pub(crate) fn mixed(structure: &Structure, dt: f64, average: &ModeSet) -> Self {
+        Self::new(structure, dt, |mode| average.has(mode))
     }
 
     fn new(structure: &Structure, dt: f64, is_average: impl Fn(usize) -> bool) -> Self {
@@ -193,11 +193,6 @@ fn static_rule(c: f64, stiffness: f64, dt: f64) -> [[f64; 4]; 3] {
     // ∫q = ∫s − c (q₁ − q₀)
     let integral = [c * (1.0 - decay), 0.0, 0.5 * dt - c * q[2], 0.5 * dt - c * q[3]];
     [integral, q, v].map(|[of_q, of_v, s0, s1]| [of_q, of_v, per * s0, per * s1])
-}
-
-/// The bit of a mode.
-pub(crate) fn bit(mode: usize) -> u64 {
-    1 << mode.min(63)
 }
 
 #[cfg(test)]

@@ -263,7 +263,7 @@ impl<'a> Walk<'a> {
             pseudo: &mut attempt,
             extrapolation: &mut Extrapolation::default(),
         };
-        let affine = Affine { support: None, g, h, key: *key };
+        let affine = Affine { support: None, g, h, key };
         let solved =
             kernel.solve(&affine, pseudo, Guess::Unchanged, &committed, &state.scale, &mut out);
         if let Err(failed) = solved {

@@ -299,5 +299,5 @@ fn converged<'a>(to: &'a mut State, energy: &'a mut [Energy]) -> Converged<'a> {
 
 fn affine<'a>(compliance: &'a Compliance, support: Option<[&'a [f64]; 2]>) -> Affine<'a> {
     let Compliance { g, h, key } = compliance;
-    Affine { support, g, h, key: *key }
+    Affine { support, g, h, key }
 }

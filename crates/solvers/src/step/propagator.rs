@@ -51,11 +51,11 @@ pub(crate) trait Propagator {
         _stiffness: &mut dyn Iterator<Item = f64>,
         _stiffest: &[f64],
     ) -> StepKey {
-        StepKey { dt, average: 0 }
+        StepKey::exact(dt)
     }
 
     /// Prepares for such steps; what is expensive is kept.
-    fn prepare(&mut self, key: StepKey) -> Result<(), SolveError>;
+    fn prepare(&mut self, key: &StepKey) -> Result<(), SolveError>;
 
     /// Compliance of the step prepared last.
     fn compliance(&self) -> &Compliance;

@@ -149,7 +149,7 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
     ) -> Result<(), StepFailure> {
         let now = &mut self.side.links().stiffness(&from.tangents);
         let key = self.propagator.choose(dt, now, &from.stiffest);
-        self.propagator.prepare(key)?;
+        self.propagator.prepare(&key)?;
         let side = &mut self.side;
         side.begin(self.propagator.space(), from, to, loads, energy);
         let (forces, wanted) = side.prediction(from);
@@ -215,7 +215,8 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
             softness[*flat] = h.own(a);
         }
         let turned = turning.missed(laws, side.links(), from, to, rates, softness, dt);
-        let vibration = vibration.as_mut().filter(|_| propagator.compliance().key.average == 0);
+        let vibration =
+            vibration.as_mut().filter(|_| propagator.compliance().key.average.is_empty());
         let vibrated = vibration.map_or(0.0, |vibration| {
             let (links, effective, supports) = (side.links(), side.effective(), side.supports());
             let made = Made { laws, links, space, effective, supports, from, to, dt };
@@ -259,7 +260,7 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
         state: &mut State,
     ) -> Result<(), SolveError> {
         for one in memory {
-            self.propagator.prepare(one.key)?;
+            self.propagator.prepare(&one.key)?;
             self.side.kernel.recall(one, self.propagator.compliance());
         }
         self.side.recall_rates(self.propagator.space(), t, state);

@@ -290,7 +290,7 @@ fn step(
     (part, of): (usize, usize),
     dt: f64,
 ) {
-    modes.prepare(StepKey { dt, average: 0 });
+    modes.prepare(&StepKey::exact(dt));
     let modes = &*modes;
     let mut going: Vec<&mut Course<'_, '_>> =
         courses.iter_mut().filter(|c| c.is_on_the_way()).collect();

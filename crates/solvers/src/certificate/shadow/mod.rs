@@ -154,9 +154,9 @@ impl<'a> Shadow<'a> {
         self.modes.space.force_into(&self.amplitudes.end, load1);
         let key = match answers {
             true => self.take_tangents(&run, dt),
-            false => StepKey { dt, average: 0 },
+            false => StepKey::exact(dt),
         };
-        self.modes.prepare(key);
+        self.modes.prepare(&key);
         let loads = [&self.load[0][..], &self.load[1][..]];
         if let Some(spread) = self.modal_loads.renew_spread(&self.pseudo) {
             self.modes.space.links.spread_into(&self.pseudo, spread);
