@@ -104,8 +104,8 @@ fn an_altered_checkpoint_is_refused() {
     assert!(tried > 40, "{tried}");
     for (from, to, told) in [
         ("\"time\":0.5", "\"time\":0.6", "is not as it was written: its `sha256` is"),
-        ("\"format\":1", "\"format\":2", "has format 2, this program reads format 1"),
-        ("\"format\":1,", "", "states no format"),
+        ("\"format\":2", "\"format\":3", "has format 3, this program reads format 2"),
+        ("\"format\":2,", "", "states no format"),
     ] {
         let altered = text.replacen(from, to, 1);
         assert_ne!(altered, text, "{from}");

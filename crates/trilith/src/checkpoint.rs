@@ -7,7 +7,7 @@ use trilith_results::{FileError, sha256_of_json};
 use trilith_solvers::EndState;
 
 /// The format written here.
-const FORMAT: u64 = 1;
+const FORMAT: u64 = 2;
 /// Key of the sum of all others.
 const SUM: &str = "sha256";
 
@@ -201,8 +201,8 @@ mod tests {
             let told = told(&altered);
             assert!(told.contains("is not as it was written"), "{from}: {told}");
         }
-        let other = text.replacen("\"format\":1", "\"format\":7", 1);
-        assert!(told(&other).contains("has format 7, this program reads format 1"));
+        let other = text.replacen("\"format\":2", "\"format\":7", 1);
+        assert!(told(&other).contains("has format 7, this program reads format 2"));
         let bare = serde_json::to_string(&checkpoint().state).unwrap();
         assert!(told(&bare).contains("states no format"));
         assert!(told("[1]").contains("states no format") && told("7").contains("no format"));
