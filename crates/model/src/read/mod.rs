@@ -100,8 +100,9 @@ pub fn parse(text: &str, path: impl AsRef<Path>) -> Result<(Arc<Source>, Node), 
     let root = if is_json { tree::json::parse(text) } else { tree::parse(text) };
     let root = root.map_err(|e| {
         let d = Diagnostic::new(e.code, e.message, e.span, &source);
-        vec![match e.related {
-            Some(first) => d.related(first, "first given here").help("keep one of the two"),
+        let d = e.related.into_iter().fold(d, |d, (span, what)| d.related(span, what));
+        vec![match e.help {
+            Some(help) => d.help(help),
             None => d,
         }]
     })?;

@@ -96,7 +96,7 @@ impl Reader<'_> {
     }
 
     fn wrong_at(&self, message: &str, span: Span) -> TreeError {
-        TreeError { code: "E0101", message: message.into(), span, related: None }
+        TreeError::text(message.into(), span)
     }
 
     fn eat(&mut self, wanted: char) -> bool {
@@ -212,12 +212,7 @@ impl Reader<'_> {
             let key = self.string()?;
             let key_span = start + 1..self.at - 1;
             if let Some(first) = places.insert(key.clone(), entries.len()) {
-                return Err(TreeError {
-                    code: "E0102",
-                    message: format!("`{key}` is given twice"),
-                    span: key_span,
-                    related: Some(entries[first].key_span.clone()),
-                });
+                return Err(TreeError::twice(&key, key_span, &entries[first].key_span));
             }
             if !self.eat(':') {
                 return Err(self.wrong("`:` is wanted here"));
