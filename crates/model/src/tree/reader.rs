@@ -185,11 +185,11 @@ impl<'a> Reader<'a> {
             Some(b'(') => self.in_parentheses(None)?,
             Some(b'[') => Kind::List(None, self.list(b']')?),
             Some(b'{') => Kind::Map(self.map()?),
-            Some(b'"') => Kind::Text(self.text(literal::text)?),
-            Some(b'\'') => Kind::Text(self.text(literal::character)?),
-            Some(b'0'..=b'9' | b'-' | b'+' | b'.') => Kind::Number(self.number()?),
+            Some(b'"') => Kind::Text(self.literal(literal::text)?),
+            Some(b'\'') => Kind::Text(self.literal(literal::character)?),
+            Some(b'0'..=b'9' | b'-' | b'+' | b'.') => Kind::Number(self.literal(literal::number)?),
             Some(b'r') if literal::is_raw_text(self.rest()) => {
-                Kind::Text(self.text(literal::raw_text)?)
+                Kind::Text(self.literal(literal::raw_text)?)
             }
             Some(_) if self.rest().starts_with(begins_name) => return self.named(),
             _ => return Err(self.error(format!("a value is wanted here, not {}", self.found()))),
@@ -323,7 +323,7 @@ impl<'a> Reader<'a> {
         let part = &self.text[before.clone()];
         let is_text = part.ends_with('"');
         if is_text && part.contains('\n') {
-            let begin = part.rfind(": \"").map_or(before.start, |i| before.start + i + 2);
+            let begin = before.start + part[..part.len() - 1].rfind('"').unwrap_or(0);
             return error
                 .related(begin..begin + 1, "the text before it begins here")
                 .help("it goes on over the end of its line: its closing `\"` may be missing");
@@ -377,7 +377,7 @@ impl<'a> Reader<'a> {
                     return Err(reader.error(message));
                 }
             };
-            let key = reader.text(read)?;
+            let key = reader.literal(read)?;
             // Without the quotes, and without what makes a text raw.
             let whole = &reader.text[start..reader.at];
             let quotes = whole.find('"').unwrap_or(0) + 1..whole.rfind('"').unwrap_or(whole.len());
@@ -399,21 +399,11 @@ impl<'a> Reader<'a> {
         all.add(Entry { key, key_span, value })
     }
 
-    fn number(&mut self) -> Read<f64> {
-        let (start, rest) = (self.at, self.rest());
-        match literal::number(rest) {
-            Ok((number, length)) => {
-                self.at += length;
-                Ok(number)
-            }
-            Err(wrong) => Err(wrong.at(start)),
-        }
-    }
-
-    fn text<T>(&mut self, read: fn(&str) -> Result<(T, usize), Wrong>) -> Read<T> {
-        let (text, length) = read(self.rest()).map_err(|wrong| wrong.at(self.at))?;
+    /// A number or a text.
+    fn literal<T>(&mut self, read: fn(&str) -> Result<(T, usize), Wrong>) -> Read<T> {
+        let (value, length) = read(self.rest()).map_err(|wrong| wrong.at(self.at))?;
         self.at += length;
-        Ok(text)
+        Ok(value)
     }
 }
 

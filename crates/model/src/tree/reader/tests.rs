@@ -142,6 +142,15 @@ fn what_is_wrong_is_told_where_it_is() {
 }
 
 #[test]
+fn a_text_that_may_lack_its_end_is_shown() {
+    let text = "(a: 1, b: \"1 t),\n c: \"2 t\")";
+    let error = parse(text).unwrap_err();
+    let places: Vec<_> = error.related.iter().map(|(span, what)| (span.start, *what)).collect();
+    let begin = text.find('"').unwrap();
+    assert_eq!(places, [(0, "opened here"), (begin, "the text before it begins here")]);
+}
+
+#[test]
 fn keys_that_come_again_are_found_among_many() {
     let fields = |n: usize| (0..n).map(|i| format!("\"k{i}\": {i}, ")).collect::<String>();
     for n in [1, 15, 16, 17, 40] {
