@@ -70,7 +70,7 @@ fn a_study_becomes_a_page_with_its_charts_and_makes_the_runs_that_are_not_there(
         r#"["duration","0.1 s"]"#,
         r#"["cv","0"]"#,
         r#""names":["mu","ah"]"#,
-        r#"["0.2","0.3""#,
+        r#"{"at":[0,0,1,1],"of":["0.2","0.8"]},{"at":[0,1,0,1],"of":["0.3","0.9"]}"#,
         r#""settings":[["mu",""],["ah",""]]"#,
         "Four blocks",
     ] {
