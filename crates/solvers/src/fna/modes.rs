@@ -2,9 +2,9 @@
 
 use super::{LONGEST, ModalLoads};
 use crate::kernel::{Compliance, ComplianceMatrix, ModalCompliance, StepKey};
-use crate::modal::{ClosedForm, ModeSet, Recurrence, Structure};
+use crate::modal::{ClosedForm, Recurrence, Structure};
 use crate::step::StepWork;
-use crate::structure::{Motion, ReducedSystem, accelerate_at_once};
+use crate::structure::{ModeSet, Motion, ReducedSystem, accelerate_at_once};
 use std::sync::Arc;
 use trilith_linalg::{Dense, ModalStep, StepSums, work_of_linear};
 

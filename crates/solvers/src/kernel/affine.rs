@@ -1,7 +1,7 @@
 //! What a step gives the link kernel, and what it takes from it.
 
 use super::{ComplianceMatrix, Extrapolation};
-use crate::modal::ModeSet;
+use crate::structure::ModeSet;
 use serde::{Deserialize, Serialize};
 use trilith_system::{Answers, Tangents};
 

@@ -1,7 +1,7 @@
 //! The link kernel: forces of all links at the end of a step.
 //!
 //! Newton's method on the link equations, its predictor, kept factors, line search, and the measure of equilibrium.
-//! May use no other room: it knows no structure but compliances G and H.
+//! May use `structure`, for the modes by which it tells steps from each other; it knows no structure but compliances G and H.
 //!
 //! Every linear step is affine in the pseudo-forces f̃ = f − k_e d at its end:
 //!

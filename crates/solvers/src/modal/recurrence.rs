@@ -12,10 +12,9 @@
 //! q̈ = s_q − Ω² q − D q̇ − Eᵀ ẏ        G ẏ = s_y − κ y − E q̇
 //! ```
 
-use super::ModeSet;
 use super::coupled::{Blocks, Coupled};
 use super::single_mode;
-use crate::structure::JUMPED;
+use crate::structure::{JUMPED, ModeSet};
 use trilith_linalg::{Dense, OwnModes, add_products, combine, dot, weighted_square};
 
 /// The linear structure on a basis: modes first, static shapes (without mass) behind them.
