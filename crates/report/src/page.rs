@@ -52,7 +52,7 @@ impl Block {
                 Self::Note(text) => p.note { (words(text)) },
                 Self::Code(text) => pre { (text) },
                 Self::Table { head, rows } => div.wide { table {
-                    thead { tr { @for cell in head { th { (cell) } } } }
+                    thead { tr { @for cell in head { @if cell.is_empty() { td {} } @else { th { (cell) } } } } }
                     tbody { @for row in rows { tr { @for cell in row {
                         td class=[look(cell)] { (words(cell)) }
                     } } } }
@@ -204,6 +204,8 @@ impl Page {
         let all = || self.lead.iter().chain(self.sections.iter().flat_map(|s| &s.blocks));
         let points: usize = all().flat_map(Block::figures).map(chart::size).sum();
         let fine = chart::fine(points);
+        // What scrolls is reached by keys where a script has looked.
+        let scripted = points > 0 || all().any(|b| matches!(b, Block::Table { .. }));
         let scales = &Scales::of(all().flat_map(Block::figures));
         let page = html! {
             (DOCTYPE)
@@ -235,7 +237,7 @@ impl Page {
                         }
                     }
                     @if let Some(entries) = &self.entries { (chart::json("", Some("entries"), &chart::legible(entries.data()))) }
-                    @if points > 0 { (chart::script(&[])) }
+                    @if scripted { (chart::script(&[])) }
                 }
             }
         }

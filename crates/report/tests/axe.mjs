@@ -65,7 +65,7 @@ try {
       await on("Page.navigate", { url: pathToFileURL(resolve(path)).href });
       await until("the page", "document.readyState === 'complete'");
       // A page with an engine has something to show after its first run.
-      if (await value("Boolean(document.getElementById('engine'))")) await until("its first run with its errors", "document.body.dataset.shown?.includes('true]')");
+      if (await value("Boolean(document.getElementById('engine'))")) await until("its first run with its errors", "document.body.dataset.shown?.endsWith(' errors')");
       await pause(100);
       await value(`window.AXE = ${JSON.stringify(axe)}; eval(AXE); 0`);
       await value(USE);

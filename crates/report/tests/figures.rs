@@ -78,3 +78,14 @@ fn references_are_dark_and_the_others_take_the_palette_in_turn() {
     let colors: Vec<Color> = f.series.iter().map(|s| s.color).collect();
     assert_eq!(colors, [Color::INK, Color::PALETTE[0], Color::PALETTE[1]]);
 }
+
+/// Keys reach what scrolls sideways where the script has looked.
+#[test]
+fn a_table_alone_brings_the_script_and_no_empty_heads() {
+    let head = vec![String::new(), "a".to_owned()];
+    let table = Block::Table { head, rows: vec![vec!["b".into(), "c".into()]] };
+    let page = |block: Block| Page::new("A").section(Section::new("t", "T").block(block)).html();
+    let html = page(table);
+    assert!(html.contains("<script>") && html.contains("<td></td><th>a</th>"), "{html}");
+    assert!(!page(Block::text("no more")).contains("<script>"));
+}
