@@ -32,7 +32,9 @@ pub struct Entry {
 impl Entries {
     pub(crate) fn data(&self) -> Value {
         let of = |what: &dyn Fn(&Entry) -> Value| -> Value { self.rows.iter().map(what).collect() };
-        let cells = self.columns(self.head.len(), |r, i| r.cells.get(i));
+        // What a row sets may stand in cells that have no head.
+        let width = self.rows.iter().map(|r| r.cells.len()).fold(self.head.len(), usize::max);
+        let cells = self.columns(width, |r, i| r.cells.get(i));
         let mut out = json!({
             "name": self.name, "head": self.head, "count": self.rows.len(), "cells": cells
         });
@@ -123,7 +125,9 @@ mod tests {
         assert_eq!(alike["names"], json!(["a", "b"]));
         assert_eq!(alike["values"], json!([{ "of": ["1", "3"] }, { "of": ["2", "4"] }]));
         let shown = Entry { cells: vec!["1".into(), "0.3".into()], ..row(&[("a", "1")]) };
-        assert_eq!(of(vec![shown]).get("values"), None);
+        let shown = of(vec![shown]);
+        assert_eq!(shown.get("values"), None);
+        assert_eq!(shown["cells"][0], json!({ "of": ["1"] }));
         let other = of(vec![row(&[("a", "1")]), row(&[("b", "4")])]);
         assert_eq!(other["sets"], json!([[["a", "1"]], [["b", "4"]]]));
         assert_eq!(other.get("names"), None);

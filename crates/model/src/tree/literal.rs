@@ -181,7 +181,9 @@ fn bytes(text: &str, at: usize, out: &mut String) -> Result<usize, Wrong> {
     let mut all = Vec::new();
     let mut rest = Some(text);
     while let Some(two) = rest.and_then(|r| r.strip_prefix('x')?.get(..2)) {
-        let Ok(byte) = u8::from_str_radix(two.trim_start_matches('+'), 16) else { break };
+        // A sign is no digit.
+        let digits = Some(two).filter(|two| !two.starts_with('+'));
+        let Some(Ok(byte)) = digits.map(|two| u8::from_str_radix(two, 16)) else { break };
         all.push(byte);
         if let Ok(c) = std::str::from_utf8(&all) {
             out.push_str(c);

@@ -142,6 +142,7 @@ impl Modes {
     fn held(&mut self, dt: f64, stiffest: &[f64]) -> ModeSet {
         let Self { space, structure, root, average, room, .. } = self;
         if structure.damping.is_some() {
+            // All: the first one stands for what damping couples.
             average.renew(structure.modes.max(1), |_| true, room);
             return average.clone();
         }

@@ -124,6 +124,7 @@ fn what_is_wrong_is_told_where_it_is() {
         ("(a: r#\"b\")", "r#\"", "does not end: `\"#` is missing", ""),
         (r#"(a: "b\c")"#, "\\c", r"`\c` stands for nothing", ""),
         (r#"(a: "\u{110000}")"#, r"\u{", "number of a character", ""),
+        (r#"(a: "\x+9")"#, r"\x", "two digits in base 16", ""),
         (r#"(a: "\xc3x")"#, r"\x", "two digits in base 16", ""),
         ("(a: 'bc')", "'", "a text stands between", ""),
         ("(a: 1 / 2)", "/", "`/` begins a comment", ""),
