@@ -15,7 +15,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use trilith::Registry;
 use trilith::sweep::Lanes;
 
-/// Widths of the lanes in a share at most: all models of a share are in memory.
+/// Widths of the lanes in a share, twice as many at its end, at most: all models of a share are in memory.
 const SHARES: usize = 32;
 
 /// How a study is run.
@@ -296,8 +296,12 @@ impl Shared<'_> {
         if self.lanes.is_none() {
             return 1;
         }
-        let of_all = if self.threads == 1 { left } else { left / (2 * self.threads) };
-        of_all.clamp(self.width, SHARES * self.width).min(left)
+        let most = SHARES * self.width;
+        if self.threads == 1 {
+            // What would be left over is no share of its own.
+            return if left < 2 * most { left } else { most };
+        }
+        (left / (2 * self.threads)).clamp(self.width, most).min(left)
     }
 
     fn stops(&self) -> bool {
