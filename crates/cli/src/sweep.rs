@@ -62,7 +62,7 @@ pub(crate) fn sweep(registry: &Registry, args: &SweepArguments) -> Result<Answer
         None => made_by::write_study(&folder, &inputs, &args.set, &study)?,
     }
     if !args.figure_format.is_empty() {
-        for (name, figure) in trilith_study::figures(&study, &results.records) {
+        for (name, figure) in trilith_study::figures(&study, &results.records.rows()) {
             for path in
                 figure_files::write(&folder, &name, &Drawing::from(&figure), &args.figure_format)?
             {
@@ -190,10 +190,10 @@ fn report(study: &Study, results: &Results, seconds: f64, folder: &Path) -> Stri
     let [title, model] = [&study.title, &study.model_title].map(|text| visible_line(text));
     let mut out = format!("study   {title}\nmodel   {model}\n");
     let mut counts: Vec<(&str, usize)> = Vec::new();
-    for r in &results.records {
-        match counts.iter_mut().find(|c| c.0 == r.status) {
+    for r in results.records.iter() {
+        match counts.iter_mut().find(|c| c.0 == r.status()) {
             Some(c) => c.1 += 1,
-            None => counts.push((&r.status, 1)),
+            None => counts.push((r.status(), 1)),
         }
     }
     let mut rows = vec![row(["status", "runs"])];
@@ -202,8 +202,8 @@ fn report(study: &Study, results: &Results, seconds: f64, folder: &Path) -> Stri
         rows.push(row(["left out beyond the limit", &results.left_out.to_string()]));
     }
     out += &format!("\n{}", table(&rows, &[0]));
-    for r in results.records.iter().filter(|r| !r.good).take(TOLD) {
-        out += &format!("  run {}: {}: {}\n", r.run + 1, r.status, visible_line(&r.message));
+    for r in results.records.iter().filter(|r| !r.good()).take(TOLD) {
+        out += &format!("  run {}: {}: {}\n", r.run() + 1, r.status(), visible_line(r.message()));
     }
     let new = results.records.len().saturating_sub(results.resumed + results.reused);
     out += &format!("\nnew runs: {new} in {} s", crate::text::significant(seconds, 3));

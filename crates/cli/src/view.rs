@@ -73,7 +73,7 @@ fn study(registry: &Registry, args: &ViewArguments) -> Result<Answer, Failure> {
     let model = study.model_of(registry, 0).map_err(|e| Failure::diagnostics(&e))?;
     let name = model.source.path.file_name().unwrap_or_default().to_string_lossy();
     let solver = study.solver();
-    let charts = charts(&study, &results.records);
+    let charts = charts(&study, &results.records.rows());
     let title = if study.title.is_empty() { &*name } else { &study.title };
     let live = Live {
         title,

@@ -49,7 +49,7 @@ fn study(exhibit: &Exhibit) -> Result<String, Box<dyn Error>> {
     let how = How::threads(2);
     let done = execute(&study, &registry, &folder, how, &|_| {}, &AtomicBool::new(false));
     std::fs::remove_dir_all(&folder)?;
-    let figures = trilith_study::figures(&study, &done?.records);
+    let figures = trilith_study::figures(&study, &done?.records.rows());
     let (_, figure) = figures.into_iter().next().ok_or("a study without figures")?;
     Ok(figure.sized(560, 340).svg())
 }

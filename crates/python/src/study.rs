@@ -127,7 +127,7 @@ impl Study {
             let registry = laws.registry();
             let results = execute(&study, &registry, &folder, how, &show, &watch.interrupt)
                 .map_err(|e| failure(&e))?;
-            let table = Table::of(&study, &results.records);
+            let table = Table::of(&study, &results.records.rows());
             let (resumed, reused, failed) = (results.resumed, results.reused, results.failed());
             let columns = table.columns.into_iter().map(column).collect();
             let title = study.title.clone();

@@ -1,6 +1,6 @@
 //! Conditions on a run: what stops a series, what asks for histories, what is counted.
 
-use crate::{Cell, Column, Record};
+use crate::{Column, Row};
 use trilith::report::short;
 
 /// A condition on a finished run.
@@ -26,23 +26,21 @@ impl Condition {
     /// True where it holds. A run that has fallen over is above every value: what it would have reached has
     /// no end.
     #[must_use]
-    pub fn holds(&self, columns: &[Column], record: &Record) -> bool {
+    pub fn holds(&self, columns: &[Column], run: Row<'_>) -> bool {
         let value = |name: &str| {
             let column = columns.iter().position(|c| c.name == name);
-            column.and_then(|i| record.values.get(i).copied().flatten())
+            column.and_then(|i| run.value(i))
         };
         match self {
             Self::All => true,
-            Self::Overturned => record.overturned,
-            Self::Failed => !record.good,
-            Self::Above(name, limit) => {
-                record.overturned || value(name).is_some_and(|x| x > *limit)
-            }
+            Self::Overturned => run.overturned(),
+            Self::Failed => !run.good(),
+            Self::Above(name, limit) => run.overturned() || value(name).is_some_and(|x| x > *limit),
             Self::Below(name, limit) => {
-                !record.overturned && value(name).is_some_and(|x| x < *limit)
+                !run.overturned() && value(name).is_some_and(|x| x < *limit)
             }
-            Self::Mode(mode) => record.mode.as_deref() == Some(mode),
-            Self::Any(all) => all.iter().any(|c| c.holds(columns, record)),
+            Self::Mode(mode) => run.mode() == Some(mode),
+            Self::Any(all) => all.iter().any(|c| c.holds(columns, run)),
         }
     }
 
@@ -76,20 +74,6 @@ impl crate::Study {
                 all.iter().map(|c| self.words(c)).collect::<Vec<_>>().join(" or ")
             }
             other => other.text(),
-        }
-    }
-}
-
-impl Record {
-    /// A number of the run: a column, or a varied parameter.
-    #[must_use]
-    pub fn number(&self, varied: &[String], columns: &[Column], name: &str) -> Option<f64> {
-        if let Some(i) = columns.iter().position(|c| c.name == name) {
-            return self.values.get(i).copied().flatten();
-        }
-        match self.parameters.get(varied.iter().position(|n| n == name)?)? {
-            Cell::Number(x) => Some(*x),
-            _ => None,
         }
     }
 }

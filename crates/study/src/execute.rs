@@ -6,8 +6,7 @@ use crate::column::over_time;
 use crate::journal::{Journal, Kept};
 use crate::shard::journals;
 use crate::store::{Keys, Store};
-use crate::{Part, Record, Study, StudyError};
-use std::collections::BTreeMap;
+use crate::{Part, Record, Records, Row, Study, StudyError};
 use std::fs::{File, OpenOptions};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -54,7 +53,7 @@ pub struct Progress {
 #[derive(Debug)]
 pub struct Results {
     /// The finished runs, of the part where one was run, in the order of their numbers.
-    pub records: Vec<Record>,
+    pub records: Records,
     /// Runs that were on disk already.
     pub resumed: usize,
     /// Runs that were taken from the store.
@@ -75,13 +74,13 @@ impl Results {
     /// Runs that failed.
     #[must_use]
     pub fn failed(&self) -> usize {
-        self.records.iter().filter(|r| !r.good).count()
+        self.records.iter().filter(|r| !r.good()).count()
     }
 
     /// Runs that warned of something.
     #[must_use]
     pub fn warned(&self) -> usize {
-        self.records.iter().filter(|r| !r.warnings.is_empty()).count()
+        self.records.iter().filter(|r| !r.warnings().is_empty()).count()
     }
 }
 
@@ -104,13 +103,13 @@ struct Shared<'a> {
     store: Option<(Keys, Mutex<Store>)>,
     /// Failed runs of the store are made again.
     retry_failed: bool,
-    kept: BTreeMap<usize, Record>,
+    kept: Records,
     /// None where nothing is run.
     journal: Option<Mutex<Journal>>,
     /// Runs that nobody has made.
     missing: AtomicUsize,
     /// Those that were made now or taken from the store, and those that were on disk, by number.
-    found: Mutex<Vec<Record>>,
+    found: Mutex<Records>,
     there: Mutex<Vec<usize>>,
     error: Mutex<Option<StudyError>>,
     stop: AtomicBool,
@@ -162,14 +161,14 @@ pub fn execute(
             kept.records = records;
             continue;
         }
-        for (run, record) in records {
-            if kept.records.get(&run).is_none_or(|known| !known.good) {
-                kept.records.insert(run, record);
+        for row in records.iter() {
+            if kept.records.get(row.run()).is_none_or(|known| !known.good()) {
+                kept.records.insert(row.record());
             }
         }
     }
     if retry_failed {
-        kept.records.retain(|_, record| record.good);
+        kept.records.retain(|row| row.good());
     }
     let length = study.plan.chain_length();
     let chains = part.chains(study.identity.runs / length);
@@ -205,7 +204,7 @@ pub fn execute(
         kept: kept.records,
         journal,
         missing: AtomicUsize::new(0),
-        found: Mutex::new(Vec::new()),
+        found: Mutex::default(),
         there: Mutex::new(Vec::new()),
         error: Mutex::new(None),
         stop: AtomicBool::new(false),
@@ -236,11 +235,12 @@ pub fn execute(
         let done = shared.done.into_inner();
         return Err(StudyError::Interrupted { done, total, folder: folder.to_owned() });
     }
-    let mut records = shared.found.into_inner().unwrap_or_default();
-    let (mut kept, there) = (shared.kept, shared.there.into_inner().unwrap_or_default());
-    records.extend(there.into_iter().filter_map(|run| kept.remove(&run)));
-    drop(kept);
-    records.sort_by_key(|r| r.run);
+    let mut there = shared.there.into_inner().unwrap_or_default();
+    there.sort_unstable();
+    // What was on disk may be of another part, or beyond the limit of its series.
+    let mut records = shared.kept;
+    records.retain(|row| there.binary_search(&row.run()).is_ok());
+    records.extend(shared.found.into_inner().unwrap_or_default().iter().map(Row::record));
     let missing = shared.missing.into_inner();
     if missing > 0 {
         let done = records.len();
@@ -316,7 +316,7 @@ impl Shared<'_> {
             }
             let runs: Vec<usize> = firsts.iter().map(|first| first + step).collect();
             let new: Vec<usize> =
-                runs.iter().copied().filter(|run| !self.kept.contains_key(run)).collect();
+                runs.iter().copied().filter(|run| !self.kept.contains(*run)).collect();
             if self.journal.is_none() {
                 self.missing.fetch_add(new.len(), Ordering::Relaxed);
                 firsts.retain(|first| !new.contains(&(first + step)));
@@ -342,23 +342,23 @@ impl Shared<'_> {
         let mut made = made.into_iter();
         let mut going = Vec::with_capacity(firsts.len());
         for (first, run) in firsts.into_iter().zip(runs) {
-            let kept = self.kept.get(&run);
-            let is_new = kept.is_none();
-            let new = if is_new { made.next() } else { None };
-            let Some(record) = kept.or(new.as_ref()) else { continue };
-            let study = self.study;
-            let over = study.stop.as_ref().is_some_and(|c| c.holds(&study.columns, record));
-            // A new one was counted when it was made.
-            let runs = if over { left } else { 1 } - usize::from(is_new);
-            if runs > 0 {
-                self.count(runs, !is_new && !record.good);
-            }
-            if let Some(record) = new {
-                if let Ok(mut found) = self.found.lock() {
-                    found.push(record);
+            let kept = self.kept.get(run);
+            let over = if let Some(kept) = kept {
+                if let Ok(mut there) = self.there.lock() {
+                    there.push(run);
                 }
-            } else if let Ok(mut there) = self.there.lock() {
-                there.push(run);
+                self.study.ends_with(kept)
+            } else {
+                let (Some(record), Ok(mut found)) = (made.next(), self.found.lock()) else {
+                    continue;
+                };
+                found.insert(record);
+                found.get(run).is_some_and(|row| self.study.ends_with(row))
+            };
+            // A new one was counted when it was made.
+            let runs = if over { left } else { 1 } - usize::from(kept.is_none());
+            if runs > 0 {
+                self.count(runs, kept.is_some_and(|kept| !kept.good()));
             }
             if !over {
                 going.push(first);

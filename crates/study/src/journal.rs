@@ -4,9 +4,8 @@
 //! [`Identity`] of the study in the same form. A line whose sum is wrong, torn by a stop or a full disk, counts
 //! as not written.
 
-use crate::{Identity, StudyError};
+use crate::{Identity, Records, StudyError};
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions};
 use std::io::{BufRead, BufReader, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -41,16 +40,6 @@ pub struct Record {
     pub parameters: Vec<Cell>,
     /// Values of the columns, SI.
     pub values: Vec<Option<f64>>,
-}
-
-impl Record {
-    /// What failed and what the run warned of, as a table has it.
-    #[must_use]
-    pub fn told(&self) -> String {
-        let failed = Some(self.message.as_str()).filter(|m| !m.is_empty());
-        let all = failed.into_iter().chain(self.warnings.iter().map(String::as_str));
-        all.collect::<Vec<_>>().join("; ")
-    }
 }
 
 /// A value in a table.
@@ -105,7 +94,7 @@ pub(crate) fn content(line: &str) -> Option<&str> {
 /// What a journal held.
 #[derive(Debug, Default)]
 pub(crate) struct Kept {
-    pub records: BTreeMap<usize, Record>,
+    pub records: Records,
     /// Lines that were torn.
     pub torn: usize,
 }
@@ -158,11 +147,8 @@ pub(crate) fn parse(
         }
         match json.and_then(|j| serde_json::from_str::<Record>(j).ok()) {
             // A run that was made again counts as it was made last.
-            Some(mut record) => {
-                // There may be a million, each with room for more than it has.
-                record.parameters.shrink_to_fit();
-                record.values.shrink_to_fit();
-                found.kept.records.insert(record.run, record);
+            Some(record) => {
+                found.kept.records.insert(record);
                 found.length = at;
             }
             None => found.kept.torn += 1,

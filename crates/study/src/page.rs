@@ -3,17 +3,17 @@
 mod runs;
 mod statistics;
 
-use crate::{Record, Study, figure};
+use crate::{Row, Study, figure};
 use std::path::{Component, Path, PathBuf};
 use trilith::report::{Block, Charts, Page, Section};
 
 /// Rows that a table of a page shows.
 const ROWS: usize = 40;
 
-pub(crate) fn page(study: &Study, records: &[Record], left_out: usize) -> String {
+pub(crate) fn page(study: &Study, runs: &[Row<'_>], left_out: usize) -> String {
     let title = if study.title.is_empty() { "Study" } else { &study.title };
-    let failed = records.iter().filter(|r| !r.good).count();
-    let warned = records.iter().filter(|r| !r.warnings.is_empty()).count();
+    let failed = runs.iter().filter(|r| !r.good()).count();
+    let warned = runs.iter().filter(|r| !r.warnings().is_empty()).count();
     let told = match warned {
         0 => String::new(),
         n => format!(" {n} of them warned of something."),
@@ -25,30 +25,30 @@ pub(crate) fn page(study: &Study, records: &[Record], left_out: usize) -> String
     let mut page = Page::new(title)
         .lead(Block::text(format!(
             "{} runs of `{}` ({}), {failed} of them failed.{told}{out}",
-            records.len(),
+            runs.len(),
             plain(&study.model_path).display(),
             study.model_title
         )))
-        .lead(outcomes(records));
+        .lead(outcomes(runs));
     if !study.figures.is_empty() {
-        page = page.entries(runs::entries(study, records)).lead(Block::note(
+        page = page.entries(runs::entries(study, runs)).lead(Block::note(
             "Point at a run in a figure for its parameters and results; click it to keep them, with the folder of its \
              histories or the command that makes it again.",
         ));
     }
     for number in 0..study.figures.len() {
-        page = page.section(figure::section(study, records, number));
+        page = page.section(figure::section(study, runs, number));
     }
     if study.has_groups() {
-        page = page.section(statistics::section(study, records));
+        page = page.section(statistics::section(study, runs));
     }
     if failed > 0 {
-        let bad = records.iter().filter(|r| !r.good);
+        let bad = runs.iter().copied().filter(|r| !r.good());
         page = page.section(Section::new("failed", "Runs that failed").block(list(study, bad)));
     }
     if warned > 0 {
-        let all = records.iter().filter(|r| !r.warnings.is_empty());
-        page = page.section(warnings(records).block(list(study, all)));
+        let all = runs.iter().copied().filter(|r| !r.warnings().is_empty());
+        page = page.section(warnings(runs).block(list(study, all)));
     }
     if let Ok(text) = trilith::record::file::read_text(&study.path) {
         page = page.section(Section::new("file", "The study").block(Block::code(text)));
@@ -58,9 +58,9 @@ pub(crate) fn page(study: &Study, records: &[Record], left_out: usize) -> String
 
 /// The figures of a study for a page that computes the run where their cursor is.
 #[must_use]
-pub fn charts(study: &Study, records: &[Record]) -> Charts {
-    let figures: Vec<_> = figure::figures(study, records).into_iter().map(|f| f.1).collect();
-    Charts::new(&figures, &runs::entries(study, records))
+pub fn charts(study: &Study, runs: &[Row<'_>]) -> Charts {
+    let figures: Vec<_> = figure::figures(study, runs).into_iter().map(|f| f.1).collect();
+    Charts::new(&figures, &runs::entries(study, runs))
 }
 
 /// A path without the way up and down again: `models/studies/../block.ron` is `models/block.ron`.
@@ -80,15 +80,15 @@ fn plain(path: &Path) -> PathBuf {
 }
 
 /// How many runs ended how.
-fn outcomes(records: &[Record]) -> Block {
+fn outcomes(runs: &[Row<'_>]) -> Block {
     let mut counts: Vec<(&str, usize)> = Vec::new();
-    for r in records {
-        match counts.iter_mut().find(|c| c.0 == r.status) {
+    for r in runs {
+        match counts.iter_mut().find(|c| c.0 == r.status()) {
             Some(c) => c.1 += 1,
-            None => counts.push((&r.status, 1)),
+            None => counts.push((r.status(), 1)),
         }
     }
-    let share = |n: usize| format!("{:.1} %", 100.0 * n as f64 / records.len().max(1) as f64);
+    let share = |n: usize| format!("{:.1} %", 100.0 * n as f64 / runs.len().max(1) as f64);
     let rows = counts.iter().map(|(s, n)| vec![(*s).to_owned(), n.to_string(), share(*n)]);
     Block::Table {
         head: ["status", "runs", "share"].map(str::to_owned).to_vec(),
@@ -97,9 +97,9 @@ fn outcomes(records: &[Record]) -> Block {
 }
 
 /// What was warned of, each with the number of runs; numbers that differ make no other warning.
-fn warnings(records: &[Record]) -> Section {
+fn warnings(runs: &[Row<'_>]) -> Section {
     let mut counts: Vec<(String, &str, usize)> = Vec::new();
-    for text in records.iter().flat_map(|r| &r.warnings) {
+    for text in runs.iter().flat_map(|r| r.warnings()) {
         let kind: String = text.chars().filter(|c| !"0123456789.-+e".contains(*c)).collect();
         match counts.iter_mut().find(|c| c.0 == kind) {
             Some(c) => c.2 += 1,
@@ -113,19 +113,19 @@ fn warnings(records: &[Record]) -> Section {
 }
 
 /// Runs with their parameters, status and what they told.
-fn list<'a>(study: &Study, records: impl Iterator<Item = &'a Record>) -> Block {
+fn list<'a>(study: &Study, runs: impl Iterator<Item = Row<'a>>) -> Block {
     let mut head = vec!["run".to_owned()];
     head.extend(study.varied.iter().cloned());
     head.extend(["status".to_owned(), "message".to_owned()]);
-    let cell = |c: &crate::Cell| match c {
+    let cell = |c| match c {
         crate::Cell::Number(x) => x.to_string(),
-        crate::Cell::Text(t) => t.clone(),
+        crate::Cell::Text(t) => t,
         crate::Cell::Nothing => "–".into(),
     };
-    let rows = records.take(ROWS).map(|r| {
-        let mut cells = vec![(r.run + 1).to_string()];
-        cells.extend(r.parameters.iter().map(cell));
-        cells.extend([r.status.clone(), r.told()]);
+    let rows = runs.take(ROWS).map(|r| {
+        let mut cells = vec![(r.run() + 1).to_string()];
+        cells.extend(r.parameters().map(cell));
+        cells.extend([r.status().to_owned(), r.told()]);
         cells
     });
     Block::Table { head, rows: rows.collect() }

@@ -4,7 +4,7 @@
 use crate::execute::lock;
 use crate::journal::{Journal, Kept, line, parse};
 use crate::shard::journals;
-use crate::{Part, Shard, Study, StudyError};
+use crate::{Part, Row, Shard, Study, StudyError};
 use std::path::Path;
 
 impl Study {
@@ -22,10 +22,11 @@ impl Study {
         let mut known = Kept::default().records;
         let there = if folder.exists() { journals(folder) } else { Ok(Vec::new()) };
         for (_, path) in there.map_err(StudyError::at(folder))? {
-            for (run, record) in Kept::of(&path, &self.identity)?.records {
+            for row in Kept::of(&path, &self.identity)?.records.iter() {
                 // Of a run that several have made a good one counts.
-                let counts = record.good || !(retry_failed || known.contains_key(&run));
-                counts.then(|| known.insert(run, record));
+                if row.good() || !(retry_failed || known.contains(row.run())) {
+                    known.insert(row.record());
+                }
             }
         }
         let length = self.plan.chain_length();
@@ -37,10 +38,9 @@ impl Study {
             let mut over = true;
             for chain in shard.chains(chains) {
                 let mut ended = false;
-                for record in (chain * length..).take(length).map_while(|run| known.get(&run)) {
-                    bytes.extend(line(record).map_err(json)?.bytes());
-                    ended = record.run + 1 == (chain + 1) * length
-                        || self.stop.as_ref().is_some_and(|stop| stop.holds(&self.columns, record));
+                for row in (chain * length..).take(length).map_while(|run| known.get(run)) {
+                    bytes.extend(line(&row.record()).map_err(json)?.bytes());
+                    ended = row.run() + 1 == (chain + 1) * length || self.ends_with(row);
                 }
                 over &= ended;
             }
@@ -68,8 +68,10 @@ impl Study {
         let made = parse(journal, &path, &self.identity)?.kept.records;
         let _lock = lock(&part.lock(folder), folder)?;
         let (mut own, kept) = Journal::open(&path, &self.identity)?;
-        for record in made.values().filter(|record| kept.records.get(&record.run) != Some(record)) {
-            own.write(record)?;
+        for record in made.iter().map(Row::record) {
+            if kept.records.get(record.run).map(Row::record).as_ref() != Some(&record) {
+                own.write(&record)?;
+            }
         }
         own.sync()?;
         Ok(made.len())

@@ -2,7 +2,7 @@
 
 use crate::column::{self, Watch};
 use crate::finished::Finished;
-use crate::{Cell, Place, Record, Study, StudyError};
+use crate::{Cell, Place, Record, Records, Row, Study, StudyError};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
@@ -142,7 +142,15 @@ impl Study {
 
     /// True for a run whose histories the study keeps.
     pub(crate) fn keeps_histories(&self, record: &Record) -> bool {
-        self.histories.as_ref().is_some_and(|c| c.holds(&self.columns, record))
+        self.histories.as_ref().is_some_and(|c| {
+            let alone = Records::from_iter([record.clone()]);
+            alone.iter().all(|row| c.holds(&self.columns, row))
+        })
+    }
+
+    /// True for a run with which its series is at its end.
+    pub(crate) fn ends_with(&self, run: Row<'_>) -> bool {
+        self.stop.as_ref().is_some_and(|stop| stop.holds(&self.columns, run))
     }
 
     /// The model of a run.

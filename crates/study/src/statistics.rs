@@ -1,6 +1,6 @@
 //! Medians, dispersions and probabilities of points with several runs.
 
-use crate::{Condition, Data, Place, Record, Study, Table, Values};
+use crate::{Condition, Data, Place, Row, Study, Table, Values};
 use statrs::distribution::{ContinuousCDF, Normal};
 
 /// Confidence of the intervals of probabilities.
@@ -88,9 +88,9 @@ pub fn wilson(hits: usize, count: usize, confidence: f64) -> (f64, f64) {
 pub(crate) struct Group<'a> {
     /// The point, with sample and member 0 and the axes under statistics at their first value.
     pub place: Place,
-    pub records: Vec<&'a Record>,
+    pub runs: Vec<Row<'a>>,
     /// For each run that was left out beyond the limit of its series: the run that met the limit.
-    pub stopped: Vec<&'a Record>,
+    pub stopped: Vec<Row<'a>>,
 }
 
 /// What the members of a point say about its nominal case.
@@ -113,7 +113,7 @@ impl Study {
     }
 
     /// The runs by points, in the order of their first run.
-    pub(crate) fn groups<'a>(&self, records: &'a [Record]) -> Vec<Group<'a>> {
+    pub(crate) fn groups<'a>(&self, runs: &'a [Row<'a>]) -> Vec<Group<'a>> {
         let mut found: Vec<Group<'a>> = Vec::new();
         let mut index = std::collections::HashMap::new();
         let mut group = |run: usize, found: &mut Vec<Group<'a>>| {
@@ -121,30 +121,30 @@ impl Study {
             (place.sample, place.member) = (0, 0);
             self.over.iter().for_each(|axis| place.axes[*axis] = 0);
             *index.entry(place.clone()).or_insert_with(|| {
-                found.push(Group { place, records: Vec::new(), stopped: Vec::new() });
+                found.push(Group { place, runs: Vec::new(), stopped: Vec::new() });
                 found.len() - 1
             })
         };
         let length = self.plan.chain_length();
-        for (k, record) in records.iter().enumerate() {
-            let i = group(record.run, &mut found);
-            found[i].records.push(record);
-            let end = (record.run / length + 1) * length;
-            let next = records.get(k + 1).map_or(end, |r| r.run.min(end));
-            let met = self.stop.as_ref().is_some_and(|c| c.holds(&self.columns, record));
-            for run in (record.run + 1..next).filter(|_| met) {
+        for (k, own) in runs.iter().enumerate() {
+            let i = group(own.run(), &mut found);
+            found[i].runs.push(*own);
+            let end = (own.run() / length + 1) * length;
+            let next = runs.get(k + 1).map_or(end, |r| r.run().min(end));
+            let met = self.stop.as_ref().is_some_and(|c| c.holds(&self.columns, *own));
+            for run in (own.run() + 1..next).filter(|_| met) {
                 let i = group(run, &mut found);
-                found[i].stopped.push(record);
+                found[i].stopped.push(*own);
             }
         }
-        found.retain(|g| !g.records.is_empty());
-        found.sort_by_key(|g| g.records[0].run);
+        found.retain(|g| !g.runs.is_empty());
+        found.sort_by_key(|g| g.runs[0].run());
         found
     }
 
     /// Good values of a column in a group.
     pub(crate) fn spread(&self, group: &Group<'_>, column: usize) -> Option<Spread> {
-        let values = group.records.iter().filter_map(|r| r.values.get(column).copied().flatten());
+        let values = group.runs.iter().filter_map(|r| r.value(column));
         Spread::of(&values.collect::<Vec<_>>())
     }
 
@@ -153,9 +153,9 @@ impl Study {
     pub(crate) fn sensitivity(&self, group: &Group<'_>) -> Option<Sensitivity> {
         let ensemble = self.plan.ensemble.as_ref()?;
         let given = ensemble.scatter.iter().map(|s| s * s).sum::<f64>().sqrt();
-        let mut cases: Vec<(Place, Vec<&Record>)> = Vec::new();
-        for r in &group.records {
-            let place = Place { member: 0, ..self.plan.place(r.run) };
+        let mut cases: Vec<(Place, Vec<&Row>)> = Vec::new();
+        for r in &group.runs {
+            let place = Place { member: 0, ..self.plan.place(r.run()) };
             match cases.iter_mut().find(|c| c.0 == place) {
                 Some(case) => case.1.push(r),
                 None => cases.push((place, vec![r])),
@@ -163,13 +163,13 @@ impl Study {
         }
         let mut all =
             Sensitivity { amplification: 0.0, divided: false, cases: cases.len(), sensitive: 0 };
-        for (_, records) in &cases {
-            let values = |i: usize| records.iter().filter_map(move |r| r.values.get(i)?.as_ref());
-            let spread = |i| Spread::of(&values(i).copied().collect::<Vec<_>>());
+        for (_, runs) in &cases {
+            let values = |i: usize| runs.iter().filter_map(|r| r.value(i)).collect::<Vec<_>>();
+            let spread = |i| Spread::of(&values(i));
             let spreads = (0..self.columns.len()).filter_map(spread);
             let amplification = spreads.map(|s| s.relative() / given).fold(0.0, f64::max);
-            let good = records.iter().filter(|r| r.good).count();
-            let fallen = records.iter().filter(|r| r.good && r.overturned).count();
+            let good = runs.iter().filter(|r| r.good()).count();
+            let fallen = runs.iter().filter(|r| r.good() && r.overturned()).count();
             let divided = fallen > 0 && fallen < good;
             all.amplification = all.amplification.max(amplification);
             all.divided |= divided;
@@ -179,17 +179,17 @@ impl Study {
     }
 
     /// Overturning, where any body can, and the events of the study.
-    pub(crate) fn counted(&self, records: &[Record]) -> Vec<(String, Condition)> {
+    pub(crate) fn counted(&self, runs: &[Row<'_>]) -> Vec<(String, Condition)> {
         let mut all = self.events.clone();
-        if records.iter().any(|r| r.overturned) {
+        if runs.iter().any(|r| r.overturned()) {
             all.insert(0, ("overturned".to_owned(), Condition::Overturned));
         }
         all
     }
 
     /// A row for each point with several runs.
-    pub(crate) fn statistics(&self, records: &[Record]) -> Table {
-        let groups = self.groups(records);
+    pub(crate) fn statistics(&self, runs: &[Row<'_>]) -> Table {
+        let groups = self.groups(runs);
         let mut columns = Vec::new();
         let mut add = |name: String, unit: &str, values| {
             columns.push(Data { name, unit: unit.to_owned(), values });
@@ -206,9 +206,9 @@ impl Study {
         add(
             "runs".into(),
             "",
-            Values::Counts(groups.iter().map(|g| count(g.records.len())).collect()),
+            Values::Counts(groups.iter().map(|g| count(g.runs.len())).collect()),
         );
-        let failed = |g: &Group<'_>| count(g.records.iter().filter(|r| !r.good).count());
+        let failed = |g: &Group<'_>| count(g.runs.iter().filter(|r| !r.good()).count());
         add("failed".into(), "", Values::Counts(groups.iter().map(failed).collect()));
         if self.stop.is_some() {
             let left = |g: &Group<'_>| count(g.stopped.len());
@@ -227,14 +227,14 @@ impl Study {
             part("dispersion", "", &|s| s.dispersion);
             if self.plan.ensemble.is_some() && self.plan.samples.is_none() && self.over.is_empty() {
                 let nominal = |g: &Group<'_>| {
-                    let first = g.records.iter().find(|r| self.plan.place(r.run).member == 0)?;
-                    first.values.get(i).copied().flatten()
+                    let first = g.runs.iter().find(|r| self.plan.place(r.run()).member == 0)?;
+                    first.value(i)
                 };
                 let values = groups.iter().map(nominal).collect();
                 add(format!("{}_nominal", column.name), &column.unit, Values::Numbers(values));
             }
         }
-        for (name, condition) in self.counted(records) {
+        for (name, condition) in self.counted(runs) {
             let shares: Vec<_> = groups.iter().map(|g| self.share(g, &condition)).collect();
             for (part, k) in [("probability", 0), ("low", 1), ("high", 2)] {
                 let values = shares.iter().map(|s| s.map(|s| s[k])).collect();
@@ -262,9 +262,9 @@ impl Study {
     /// run that met the limit of its series counts for the runs left out beyond as well: otherwise those that
     /// fall early would make a fall look rare at strong motions.
     pub(crate) fn share(&self, group: &Group<'_>, condition: &Condition) -> Option<[f64; 3]> {
-        let holds = |r: &&&Record| condition.holds(&self.columns, r);
-        let good: Vec<_> = group.records.iter().filter(|r| r.good).collect();
-        let beyond = if group.stopped.iter().all(|r| holds(&r)) { group.stopped.len() } else { 0 };
+        let holds = |r: &Row<'_>| condition.holds(&self.columns, *r);
+        let good: Vec<_> = group.runs.iter().copied().filter(|r| r.good()).collect();
+        let beyond = if group.stopped.iter().all(holds) { group.stopped.len() } else { 0 };
         let hits = good.iter().filter(|r| holds(r)).count() + beyond;
         let count = good.len() + beyond;
         let (low, high) = wilson(hits, count, CONFIDENCE);

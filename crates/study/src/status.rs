@@ -2,8 +2,7 @@
 
 use crate::journal::Kept;
 use crate::shard::journals;
-use crate::{Part, Study, StudyError};
-use std::collections::BTreeMap;
+use crate::{Part, Records, Row, Study, StudyError};
 use std::path::Path;
 
 /// What a journal in the folder of a study holds.
@@ -28,24 +27,23 @@ pub struct PartStatus {
 pub fn status(study: &Study, folder: &Path) -> Result<(Vec<PartStatus>, usize), StudyError> {
     let length = study.plan.chain_length();
     let chains = study.identity.runs / length;
-    let mut known = BTreeMap::new();
+    let mut known = Records::default();
     let mut all = Vec::new();
     for (part, path) in journals(folder).map_err(StudyError::at(folder))? {
         let own = Kept::of(&path, &study.identity)?.records;
-        let failed = own.values().filter(|record| !record.good).count();
+        let failed = own.iter().filter(|row| !row.good()).count();
         let own_chains = part.chains(chains);
         all.push((
             PartStatus { part, done: own.len(), of: own_chains.len() * length, failed, open: 0 },
             own_chains,
         ));
-        known.extend(own);
+        known.extend(own.iter().map(Row::record));
     }
     // Series are at their end with their last run, or where the limit of the study holds.
     let over = |chain: usize| {
-        (chain * length..(chain + 1) * length).all(|run| known.contains_key(&run))
-            || (chain * length..(chain + 1) * length).map_while(|run| known.get(&run)).any(
-                |record| study.stop.as_ref().is_some_and(|stop| stop.holds(&study.columns, record)),
-            )
+        let runs = chain * length..(chain + 1) * length;
+        runs.clone().all(|run| known.contains(run))
+            || runs.map_while(|run| known.get(run)).any(|row| study.ends_with(row))
     };
     let open: Vec<bool> = (0..chains).map(|chain| !over(chain)).collect();
     let parts = all.into_iter().map(|(status, own_chains)| {

@@ -1,6 +1,6 @@
 //! The table of a study: a row for each run, as Parquet and as CSV.
 
-use crate::{Cell, Record, Study, StudyError};
+use crate::{Cell, Row, Study, StudyError};
 use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical};
 use parquet::column::writer::ColumnWriter;
 use parquet::data_type::ByteArray;
@@ -79,51 +79,51 @@ impl Values {
 impl Table {
     /// The runs of a study: number, place, varied parameters, columns, status.
     #[must_use]
-    pub fn of(study: &Study, records: &[Record]) -> Self {
+    pub fn of(study: &Study, runs: &[Row<'_>]) -> Self {
         let mut columns = Vec::new();
         let mut add = |name: &str, unit: &str, values| {
             columns.push(Data { name: name.to_owned(), unit: unit.to_owned(), values });
         };
-        let counts = |of: &dyn Fn(&Record) -> usize| {
-            Values::Counts(records.iter().map(|r| i64::try_from(of(r)).ok()).collect())
+        let counts = |of: &dyn Fn(Row<'_>) -> usize| {
+            Values::Counts(runs.iter().map(|r| i64::try_from(of(*r)).ok()).collect())
         };
-        add("run", "", counts(&|r| r.run + 1));
+        add("run", "", counts(&|r| r.run() + 1));
         if study.plan.samples.is_some() {
-            add("sample", "", counts(&|r| study.plan.place(r.run).sample + 1));
+            add("sample", "", counts(&|r| study.plan.place(r.run()).sample + 1));
         }
         if study.plan.ensemble.is_some() {
-            add("member", "", counts(&|r| study.plan.place(r.run).member));
+            add("member", "", counts(&|r| study.plan.place(r.run()).member));
         }
         for (i, name) in study.varied.iter().enumerate() {
-            let cell = |r: &Record| r.parameters.get(i).cloned();
+            let cell = |r: &Row<'_>| r.parameter(i);
             let values = if study.is_text(name) {
                 let text = |c| match c {
                     Some(Cell::Text(t)) => Some(t),
                     _ => None,
                 };
-                Values::Texts(records.iter().map(|r| text(cell(r))).collect())
+                Values::Texts(runs.iter().map(|r| text(cell(r))).collect())
             } else {
                 let number = |c| match c {
                     Some(Cell::Number(x)) => Some(x),
                     _ => None,
                 };
-                Values::Numbers(records.iter().map(|r| number(cell(r))).collect())
+                Values::Numbers(runs.iter().map(|r| number(cell(r))).collect())
             };
             add(name, &study.unit(name), values);
         }
         for (i, column) in study.columns.iter().enumerate() {
-            let value = |r: &Record| r.values.get(i).copied().flatten();
-            add(&column.name, &column.unit, Values::Numbers(records.iter().map(value).collect()));
+            let values = runs.iter().map(|r| r.value(i)).collect();
+            add(&column.name, &column.unit, Values::Numbers(values));
         }
-        let texts = |of: &dyn Fn(&Record) -> Option<String>| {
-            Values::Texts(records.iter().map(of).collect())
+        let texts = |of: &dyn Fn(Row<'_>) -> Option<String>| {
+            Values::Texts(runs.iter().map(|r| of(*r)).collect())
         };
-        add("initial_mode", "", texts(&|r| r.initial_mode.clone()));
-        add("mode", "", texts(&|r| r.mode.clone()));
-        let fallen = |r: &Record| r.good.then_some(r.overturned);
-        add("overturned", "", Values::Flags(records.iter().map(fallen).collect()));
-        add("status", "", texts(&|r| Some(r.status.clone())));
-        let told = |r: &Record| Some(r.told()).filter(|text| !text.is_empty());
+        add("initial_mode", "", texts(&|r| r.initial_mode().map(str::to_owned)));
+        add("mode", "", texts(&|r| r.mode().map(str::to_owned)));
+        let fallen = |r: &Row<'_>| r.good().then_some(r.overturned());
+        add("overturned", "", Values::Flags(runs.iter().map(fallen).collect()));
+        add("status", "", texts(&|r| Some(r.status().to_owned())));
+        let told = |r: Row<'_>| Some(r.told()).filter(|text| !text.is_empty());
         add("message", "", texts(&told));
         Self { title: study.title.clone(), columns }
     }
@@ -222,11 +222,11 @@ const ROWS: usize = 1 << 16;
 /// Writes the tables of a study: the same as [`Table::of`] all its runs, in parts.
 pub(crate) fn write(
     study: &Study,
-    records: &[Record],
+    runs: &[Row<'_>],
     [parquet, csv]: [&Path; 2],
 ) -> Result<(), StudyError> {
-    let of_none = records.is_empty().then_some(records);
-    let parts = || records.chunks(ROWS).chain(of_none).map(|part| Table::of(study, part));
+    let of_none = runs.is_empty().then_some(runs);
+    let parts = || runs.chunks(ROWS).chain(of_none).map(|part| Table::of(study, part));
     write_parquet(parts(), parquet)?;
     write_csv(parts(), csv)
 }

@@ -39,10 +39,13 @@ fn side_by_side(out: &Path, share: f64) {
     let (found, expected) = (run(&beside, &at, 2).unwrap(), run(&alone, &there, 2).unwrap());
     assert_eq!((found.beside, expected.beside), (found.records.len(), 0));
     assert!(found.left_out > 0 && found.left_out == expected.left_out);
-    for (own, other) in found.records.iter().zip(&expected.records) {
-        assert_eq!((own.run, &own.status, &own.mode), (other.run, &other.status, &other.mode));
-        assert_eq!(own.initial_mode, other.initial_mode);
-        for ((x, y), column) in own.values.iter().zip(&other.values).zip(&beside.columns) {
+    for (own, other) in found.records.iter().zip(expected.records.iter()) {
+        assert_eq!(
+            (own.run(), own.status(), own.mode()),
+            (other.run(), other.status(), other.mode())
+        );
+        assert_eq!(own.initial_mode(), other.initial_mode());
+        for ((x, y), column) in own.values().zip(other.values()).zip(&beside.columns) {
             let (x, y) = (x.unwrap(), y.unwrap());
             // Straight lines between other moments cross a value elsewhere, by a small share of an output step of 10 ms.
             let least = match &*column.name {
@@ -78,18 +81,18 @@ fn what_fails_beside_others_says_so_as_alone() {
     // One without mass does not fit, and goes by itself.
     assert_eq!((beside.beside, alone.beside), (2, 0));
     assert_eq!((beside.failed(), beside.records.len()), (1, 3));
-    for (own, other) in beside.records.iter().zip(&alone.records) {
-        assert_eq!((&own.status, own.good), (&other.status, other.good));
+    for (own, other) in beside.records.iter().zip(alone.records.iter()) {
+        assert_eq!((own.status(), own.good()), (other.status(), other.good()));
         // But for the digits of the share.
         let words = |text: &str| text.split_once('%').map(|(_, rest)| rest.to_owned());
-        assert_eq!(words(&own.message), words(&other.message));
-        assert_eq!(own.message.is_empty(), own.good);
+        assert_eq!(words(own.message()), words(other.message()));
+        assert_eq!(own.message().is_empty(), own.good());
     }
     // Friction below zero is refused, among others that run.
     let random =
         r#"seed: 2, samples: Random(count: 12, of: { "mu": Normal(mean: 0.1, deviation: 0.2) })"#;
     let study = read(folder.path(), random).unwrap();
     let results = run(&study, &folder.path().join("random"), 2).unwrap();
-    let refused = results.records.iter().filter(|r| r.status == "model error").count();
+    let refused = results.records.iter().filter(|r| r.status() == "model error").count();
     assert!(refused > 0 && results.beside == 12 - refused, "{refused} {}", results.beside);
 }

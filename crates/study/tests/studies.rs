@@ -6,7 +6,7 @@ use common::{ALONE, MODEL, bytes, folder, read, run};
 use std::path::Path;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use trilith_study::{How, Study, StudyError, execute};
+use trilith_study::{How, Row, Study, StudyError, execute};
 
 const GRID: &str = r#"
     axes: { "a": Range(from: "1 m/s^2", to: "8 m/s^2", count: 8), "mu": [0.1, 0.3, "3*0.2"] },
@@ -87,7 +87,7 @@ fn a_series_ends_at_its_limit_and_ensembles_keep_their_members() {
     assert_eq!(study.identity.runs, 24);
     assert!(results.left_out > 0 && results.records.len() + results.left_out == 24);
     let at = |member: usize| {
-        let of = results.records.iter().filter(|r| study.plan.place(r.run).member == member);
+        let of = results.records.iter().filter(|r| study.plan.place(r.run()).member == member);
         of.map(|r| r.number(&study.varied, &study.columns, "mu").unwrap()).collect::<Vec<_>>()
     };
     assert!(at(0).iter().all(|mu| *mu == 0.3));
@@ -106,8 +106,8 @@ fn a_series_ends_at_its_limit_and_ensembles_keep_their_members() {
     let (runs, left) = (column("runs"), column("left_out"));
     assert!(runs.iter().zip(&left).all(|(r, l)| r + l == 6.0), "{table}");
     let stopped = |a: f64| {
-        let met = results.records.iter().filter(|r| r.values[0].is_some_and(|x| x > 0.02));
-        let at = |r: &&_| trilith_study::Record::number(r, &study.varied, &study.columns, "a");
+        let met = results.records.iter().filter(|r| r.value(0).is_some_and(|x| x > 0.02));
+        let at = |r: &Row<'_>| r.number(&study.varied, &study.columns, "a");
         met.filter(|r| at(r).is_some_and(|x| x <= a)).count() as f64 / 6.0
     };
     assert_eq!(column("stops_probability"), [1.0, 2.0, 4.0, 8.0].map(stopped));
@@ -135,20 +135,21 @@ fn runs_that_fail_among_others_are_rows_and_the_study_goes_on() {
     let study = read(folder.path(), body).unwrap();
     let out = folder.path().join("out");
     let results = run(&study, &out, 2).unwrap();
-    let status: Vec<_> = results.records.iter().map(|r| r.status.as_str()).collect();
+    let status: Vec<_> = results.records.iter().map(Row::status).collect();
     assert_eq!(status, ["converged", "energy error", "converged"]);
     assert_eq!(results.failed(), 1);
-    assert!(results.records[1].values.iter().all(Option::is_none));
-    assert!(results.records[1].message.contains("unaccounted"));
+    let failed = results.records.get(1).unwrap();
+    assert!(failed.values().all(|value| value.is_none()));
+    assert!(failed.message().contains("unaccounted"));
     let html = String::from_utf8(bytes(&out, "study.html")).unwrap();
     assert!(html.contains("Runs that failed"));
     let random =
         r#"seed: 2, samples: Random(count: 12, of: { "mu": Normal(mean: 0.1, deviation: 0.2) })"#;
     let study = read(folder.path(), random).unwrap();
     let results = run(&study, &folder.path().join("random"), 2).unwrap();
-    let refused: Vec<_> = results.records.iter().filter(|r| r.status == "model error").collect();
+    let refused: Vec<_> = results.records.iter().filter(|r| r.status() == "model error").collect();
     assert!(!refused.is_empty() && refused.len() < 12);
-    assert!(refused[0].message.contains("must be ≥ 0"), "{}", refused[0].message);
+    assert!(refused[0].message().contains("must be ≥ 0"), "{}", refused[0].message());
 }
 
 #[test]
@@ -359,14 +360,15 @@ fn a_combination_takes_the_place_of_a_case() {
         let own = &found.combinations[0].outputs[0];
         let peak = own.max.abs().max(own.min.abs());
         let expected = [own.max, own.min, peak, peak / (own.max - own.min)].map(Some);
-        assert_eq!(record.values, expected, "{a}");
-        assert!(record.warnings.is_empty(), "{:?}", record.warnings);
+        assert_eq!(record.values().collect::<Vec<_>>(), expected, "{a}");
+        assert!(record.warnings().is_empty(), "{:?}", record.warnings());
         // Twice the push, and what the shaking adds.
         assert!(own.max > 1.9e-4, "{own:?}");
     }
     let twice = body("").replace("\"sum\"", "\"twice\"");
     let results = run(&read(folder.path(), &twice).unwrap(), &folder.path().join("twice"), 1);
-    let warned = results.unwrap().records.remove(0).warnings;
+    let results = results.unwrap();
+    let warned = results.records.get(0).unwrap().warnings();
     assert!(warned[0].contains("it adds \"gravity\" and \"push\""), "{warned:?}");
     for (more, part) in [
         (r#"case: "shake","#, "`case` runs a case and no combination"),
@@ -455,7 +457,8 @@ fn a_body_that_sinks_in_is_told_of_runs_side_by_side() {
     let folder = tempfile::tempdir().unwrap();
     let results = run(&study.unwrap(), &folder.path().join("out"), 1).unwrap();
     assert_eq!((results.beside, results.warned()), (1, 1));
-    let [one] = &results.records[0].warnings[..] else { panic!("{:?}", results.records[0]) };
+    let warned = results.records.get(0).unwrap().warnings();
+    let [one] = warned else { panic!("{warned:?}") };
     assert!(one.contains("was pressed in by 98.1 m, 4910 % of the size"), "{one}");
 }
 

@@ -1,7 +1,7 @@
 //! A section of the page for each figure.
 
 use super::{fragile, hazard, modes, overturning, spread};
-use crate::{Drawing, Record, Study};
+use crate::{Drawing, Row, Study};
 use trilith::report::{Block, Figure, Section};
 
 impl Drawing {
@@ -20,28 +20,27 @@ impl Drawing {
 }
 
 /// What is drawn for the figure with this number, and the rows of a table beside it.
-fn drawn(study: &Study, records: &[Record], number: usize) -> (Vec<Figure>, Vec<Vec<String>>) {
+fn drawn(study: &Study, runs: &[Row<'_>], number: usize) -> (Vec<Figure>, Vec<Vec<String>>) {
     let figure = match &study.figures[number] {
         Drawing::ModeChart { x, y, slenderness } => {
-            settable(study, modes::draw(study, records, (x, y), *slenderness), x, y)
+            settable(study, modes::draw(study, runs, (x, y), *slenderness), x, y)
         }
-        Drawing::Ida { demand, intensity } => fragile::ida(study, records, demand, intensity),
+        Drawing::Ida { demand, intensity } => fragile::ida(study, runs, demand, intensity),
         Drawing::Fragility { intensity, event, confidence, by } => {
             let by = by.as_deref();
-            let (figure, rows) =
-                fragile::fragility(study, records, intensity, event, *confidence, by);
+            let (figure, rows) = fragile::fragility(study, runs, intensity, event, *confidence, by);
             return (vec![figure], rows);
         }
         Drawing::Overturning { frequency, amplitude, half_sine } => {
-            let figure = overturning::draw(study, records, (frequency, amplitude), *half_sine);
+            let figure = overturning::draw(study, runs, (frequency, amplitude), *half_sine);
             settable(study, figure, frequency, amplitude)
         }
         Drawing::Hazard { demand, intensity, rates } => {
-            return (hazard::draw(study, records, (demand, intensity), rates), Vec::new());
+            return (hazard::draw(study, runs, (demand, intensity), rates), Vec::new());
         }
-        Drawing::Spread { x, y } => return (spread::spread(study, records, x, y), Vec::new()),
+        Drawing::Spread { x, y } => return (spread::spread(study, runs, x, y), Vec::new()),
         Drawing::Points { x, y, by } => {
-            settable(study, spread::points(study, records, (x, y), by.as_deref()), x, y)
+            settable(study, spread::points(study, runs, (x, y), by.as_deref()), x, y)
         }
     };
     (vec![figure], Vec::new())
@@ -63,12 +62,12 @@ fn settable(study: &Study, figure: Figure, x: &str, y: &str) -> Figure {
 
 /// The figures that a study asks for, each with a name for a file: `figure_1_mode_chart`.
 #[must_use]
-pub fn figures(study: &Study, records: &[Record]) -> Vec<(String, Figure)> {
+pub fn figures(study: &Study, runs: &[Row<'_>]) -> Vec<(String, Figure)> {
     let mut all = Vec::new();
     for (i, drawing) in study.figures.iter().enumerate() {
         let title = drawing.title().to_lowercase().replace(' ', "_");
         let name = format!("figure_{}_{title}", i + 1);
-        let drawn = drawn(study, records, i).0;
+        let drawn = drawn(study, runs, i).0;
         let lone = drawn.len() == 1;
         for (k, figure) in drawn.into_iter().enumerate() {
             let name = if lone { name.clone() } else { format!("{name}_{}", k + 1) };
@@ -79,9 +78,9 @@ pub fn figures(study: &Study, records: &[Record]) -> Vec<(String, Figure)> {
 }
 
 /// The section of the figure with this number.
-pub(crate) fn section(study: &Study, records: &[Record], number: usize) -> Section {
+pub(crate) fn section(study: &Study, runs: &[Row<'_>], number: usize) -> Section {
     let drawing = &study.figures[number];
-    let (figures, rows) = drawn(study, records, number);
+    let (figures, rows) = drawn(study, runs, number);
     let title = match drawing {
         Drawing::Fragility { event, .. } => format!("{}: {}", drawing.title(), study.words(event)),
         _ => drawing.title().to_owned(),

@@ -1,7 +1,7 @@
 //! Incremental dynamic analyses and fragility curves.
 
 use crate::fragility::Capacity;
-use crate::{Cell, Condition, Fragility, Place, Record, Study};
+use crate::{Cell, Condition, Fragility, Place, Row, Study};
 use std::collections::HashMap;
 use trilith::report::{Color, Figure, Stroke};
 
@@ -9,19 +9,15 @@ use trilith::report::{Color, Figure, Stroke};
 const CURVES: usize = 6;
 
 /// The runs of one motion and one structure with rising intensity.
-fn series<'a>(
-    study: &Study,
-    records: &'a [Record],
-    intensity: &str,
-) -> Vec<Vec<(f64, &'a Record)>> {
+fn series<'a>(study: &Study, runs: &'a [Row<'a>], intensity: &str) -> Vec<Vec<(f64, Row<'a>)>> {
     let axes = &study.plan.axes;
     let along = study.plan.chain.or_else(|| axes.iter().position(|a| a.name == intensity));
     let along = along.or_else(|| (0..axes.len()).max_by_key(|i| axes[*i].values.len()));
     let mut index: HashMap<Place, usize> = HashMap::new();
-    let mut all: Vec<Vec<(f64, &Record)>> = Vec::new();
-    for r in records {
+    let mut all: Vec<Vec<(f64, Row<'_>)>> = Vec::new();
+    for r in runs.iter().copied() {
         let Some(im) = r.number(&study.varied, &study.columns, intensity) else { continue };
-        let mut place = study.plan.place(r.run);
+        let mut place = study.plan.place(r.run());
         if let Some(axis) = along {
             place.axes[axis] = 0;
         }
@@ -35,17 +31,17 @@ fn series<'a>(
     all
 }
 
-pub(super) fn ida(study: &Study, records: &[Record], demand: &str, intensity: &str) -> Figure {
-    let all = series(study, records, intensity);
-    let value = |r: &Record| r.number(&study.varied, &study.columns, demand);
+pub(super) fn ida(study: &Study, runs: &[Row<'_>], demand: &str, intensity: &str) -> Figure {
+    let all = series(study, runs, intensity);
+    let value = |r: Row<'_>| r.number(&study.varied, &study.columns, demand);
     let mut curves: Vec<Vec<(f64, f64)>> = Vec::new();
     let mut right = 0.0f64;
     // Beyond the demand where a series was stopped nothing is known of it.
     let mut known = f64::INFINITY;
     for s in &all {
         let mut curve = vec![(0.0, 0.0)];
-        for (im, r) in s.iter().filter(|(_, r)| r.good) {
-            match value(r).filter(|_| !r.overturned) {
+        for (im, r) in s.iter().filter(|(_, r)| r.good()) {
+            match value(*r).filter(|_| !r.overturned()) {
                 Some(x) => {
                     right = right.max(x);
                     curve.push((x, *im));
@@ -56,9 +52,9 @@ pub(super) fn ida(study: &Study, records: &[Record], demand: &str, intensity: &s
                 }
             }
         }
-        let stopped = |r: &Record| study.stop.as_ref().is_some_and(|c| c.holds(&study.columns, r));
+        let stopped = |r: Row<'_>| study.stop.as_ref().is_some_and(|c| c.holds(&study.columns, r));
         if let Some(end) = curve.last().filter(|p| p.0.is_finite())
-            && s.last().is_some_and(|(_, r)| stopped(r))
+            && s.last().is_some_and(|(_, r)| stopped(*r))
         {
             known = known.min(end.0);
         }
@@ -81,15 +77,15 @@ pub(super) fn ida(study: &Study, records: &[Record], demand: &str, intensity: &s
         line
     });
     let top = curves.iter().flatten().fold(0.0f64, |a, p| a.max(p.1));
-    let one = |(row, r): (usize, &Record)| {
+    let one = |(row, r): (usize, Row<'_>)| {
         let im = r.number(&study.varied, &study.columns, intensity)?;
-        Some(((value(r).filter(|_| r.good && !r.overturned)?, im), row))
+        Some(((value(r).filter(|_| r.good() && !r.overturned())?, im), row))
     };
-    let (runs, rows): (Vec<_>, Vec<_>) = records.iter().enumerate().filter_map(one).unzip();
+    let (points, rows): (Vec<_>, Vec<_>) = runs.iter().copied().enumerate().filter_map(one).unzip();
     let mut figure =
         Figure::new("Incremental dynamic analysis", study.label(demand), study.label(intensity))
             .colored("single motions", Stroke::Line, Color::CONTEXT, drawn)
-            .colored("runs", Stroke::Rings, Color::CONTEXT, runs)
+            .colored("runs", Stroke::Rings, Color::CONTEXT, points)
             .standing_for(rows)
             .ranges((0.0, right), (0.0, 1.03 * top));
     for (name, p) in [("median", 0.5), ("16 %", 0.16), ("84 %", 0.84)] {
@@ -120,7 +116,7 @@ fn first(curve: &[(f64, f64)], demand: f64) -> f64 {
 
 pub(super) fn fragility(
     study: &Study,
-    records: &[Record],
+    runs: &[Row<'_>],
     intensity: &str,
     event: &Condition,
     confidence: f64,
@@ -130,7 +126,7 @@ pub(super) fn fragility(
     let axis = format!("probability of: {what}");
     let mut figure = Figure::new(format!("Fragility: {what}"), study.label(intensity), axis);
     let mut rows = Vec::new();
-    let all = series(study, records, intensity);
+    let all = series(study, runs, intensity);
     let groups = match by {
         None => vec![(String::new(), all)],
         Some(by) => split(study, all, by),
@@ -139,9 +135,9 @@ pub(super) fn fragility(
     for (k, (name, group)) in groups.into_iter().take(CURVES).enumerate() {
         let color = Color::PALETTE[k % Color::PALETTE.len()];
         let label = |text: &str| if name.is_empty() { text.to_owned() } else { name.clone() };
-        let good = group.iter().flatten().filter(|(_, r)| r.good);
+        let good = group.iter().flatten().filter(|(_, r)| r.good());
         let outcomes: Vec<(f64, bool)> =
-            good.map(|(im, r)| (*im, event.holds(&study.columns, r))).collect();
+            good.map(|(im, r)| (*im, event.holds(&study.columns, *r))).collect();
         let from = outcomes.iter().map(|o| o.0).filter(|x| *x > 0.0).fold(f64::MAX, f64::min);
         let to = outcomes.iter().fold(0.0f64, |a, o| a.max(o.0));
         right = right.max(to);
@@ -163,10 +159,10 @@ pub(super) fn fragility(
         } else {
             let all =
                 group.iter().zip(&motions).flat_map(|(s, m)| s.iter().map(|(im, r)| (*im, *r, *m)));
-            let one = |(im, r, m): (f64, &Record, usize)| {
+            let one = |(im, r, m): (f64, Row<'_>, usize)| {
                 (Capacity::of_outcome(im, event.holds(&study.columns, r)), m)
             };
-            (shares(&outcomes), all.filter(|(_, r, _)| r.good).map(one).collect())
+            (shares(&outcomes), all.filter(|(_, r, _)| r.good()).map(one).collect())
         };
         let fit = Fragility::fit_motions(&capacities);
         figure = figure.colored(label("share of runs"), Stroke::Rings, color, points);
@@ -215,7 +211,7 @@ pub(super) fn fragility(
 
 /// A number for each series, the same for those of one motion: where texts tell points apart those are the
 /// records, otherwise everything but the members of an ensemble does.
-fn motions(study: &Study, series: &[Vec<(f64, &Record)>]) -> Vec<usize> {
+fn motions(study: &Study, series: &[Vec<(f64, Row<'_>)>]) -> Vec<usize> {
     let axes = &study.plan.axes;
     let texts: Vec<usize> = (0..axes.len()).filter(|i| study.is_text(&axes[*i].name)).collect();
     let text_rows = study.plan.rows.first().is_some_and(|r| r.iter().any(|p| study.is_text(&p.0)));
@@ -234,16 +230,16 @@ fn motions(study: &Study, series: &[Vec<(f64, &Record)>]) -> Vec<usize> {
         let next = known.len();
         *known.entry(key).or_insert(next)
     };
-    series.iter().map(|s| s.first().map_or(0, |(_, r)| number(study.plan.place(r.run)))).collect()
+    series.iter().map(|s| s.first().map_or(0, |(_, r)| number(study.plan.place(r.run())))).collect()
 }
 
 /// Between which intensities a series shows the event first.
-fn capacity(study: &Study, series: &[(f64, &Record)], event: &Condition) -> Option<Capacity> {
+fn capacity(study: &Study, series: &[(f64, Row<'_>)], event: &Condition) -> Option<Capacity> {
     let mut low = 0.0;
     let mut any = false;
-    for (im, r) in series.iter().filter(|(_, r)| r.good) {
+    for (im, r) in series.iter().filter(|(_, r)| r.good()) {
         any = true;
-        if event.holds(&study.columns, r) {
+        if event.holds(&study.columns, *r) {
             return Some(Capacity { low, high: *im });
         }
         low = *im;
@@ -263,14 +259,14 @@ fn shares(outcomes: &[(f64, bool)]) -> Vec<(f64, f64)> {
     sorted.chunk_by(same).map(share).collect()
 }
 
-type Series<'a> = Vec<Vec<(f64, &'a Record)>>;
+type Series<'a> = Vec<Vec<(f64, Row<'a>)>>;
 
 /// Series by the value of a parameter or a column.
 fn split<'a>(study: &Study, all: Series<'a>, by: &str) -> Vec<(String, Series<'a>)> {
     let mut groups: Vec<(String, Series<'a>)> = Vec::new();
     for s in all {
         let Some((_, first)) = s.first() else { continue };
-        let name = value_text(study, first, by);
+        let name = value_text(study, *first, by);
         match groups.iter_mut().find(|g| g.0 == name) {
             Some(group) => group.1.push(s),
             None => groups.push((name, vec![s])),
@@ -280,9 +276,9 @@ fn split<'a>(study: &Study, all: Series<'a>, by: &str) -> Vec<(String, Series<'a
 }
 
 /// `mu = 0.4`, or the text itself.
-pub(super) fn value_text(study: &Study, r: &Record, name: &str) -> String {
+pub(super) fn value_text(study: &Study, r: Row<'_>, name: &str) -> String {
     let i = study.varied.iter().position(|n| n == name);
-    if let Some(Cell::Text(text)) = i.and_then(|i| r.parameters.get(i)) {
+    if let Some(Cell::Text(text)) = i.and_then(|i| r.parameter(i)) {
         return text.clone();
     }
     match r.number(&study.varied, &study.columns, name) {

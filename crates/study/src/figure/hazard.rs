@@ -1,6 +1,6 @@
 //! Demand exceeded against intensity and, where the hazard is known, how often in a year.
 
-use crate::{Record, Spread, Study};
+use crate::{Row, Spread, Study};
 use trilith::report::{Color, Figure, Stroke};
 
 /// Curves of single intensities.
@@ -19,13 +19,14 @@ impl Stripe {
     }
 }
 
-fn stripes(study: &Study, records: &[Record], demand: &str, intensity: &str) -> Vec<Stripe> {
-    let number = |r: &Record, name| r.number(&study.varied, &study.columns, name);
-    let one = |r: &Record| {
-        let x = if r.overturned { f64::INFINITY } else { number(r, demand)? };
+fn stripes(study: &Study, runs: &[Row<'_>], demand: &str, intensity: &str) -> Vec<Stripe> {
+    let number = |r: Row<'_>, name| r.number(&study.varied, &study.columns, name);
+    let one = |r: Row<'_>| {
+        let x = if r.overturned() { f64::INFINITY } else { number(r, demand)? };
         Some((number(r, intensity)?, x))
     };
-    let mut all: Vec<(f64, f64)> = records.iter().filter(|r| r.good).filter_map(one).collect();
+    let mut all: Vec<(f64, f64)> =
+        runs.iter().copied().filter(|r| r.good()).filter_map(one).collect();
     all.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
     let same = |a: &(f64, f64), b: &(f64, f64)| (a.0 - b.0).abs() <= 1e-9 * a.0.abs();
     let stripe = |part: &[(f64, f64)]| Stripe {
@@ -37,18 +38,21 @@ fn stripes(study: &Study, records: &[Record], demand: &str, intensity: &str) -> 
 
 pub(super) fn draw(
     study: &Study,
-    records: &[Record],
+    runs: &[Row<'_>],
     (demand, intensity): (&str, &str),
     rates: &[(f64, f64)],
 ) -> Vec<Figure> {
-    let all = stripes(study, records, demand, intensity);
+    let all = stripes(study, runs, demand, intensity);
     let largest = all.iter().flat_map(|s| &s.demands).filter(|d| d.is_finite());
     let right = largest.fold(0.0f64, |a, d| a.max(*d));
-    let number = |r: &Record, name| r.number(&study.varied, &study.columns, name);
-    let one = |(row, r): (usize, &Record)| {
-        Some(((number(r, intensity)?, number(r, demand).filter(|_| r.good && !r.overturned)?), row))
+    let number = |r: Row<'_>, name| r.number(&study.varied, &study.columns, name);
+    let one = |(row, r): (usize, Row<'_>)| {
+        Some((
+            (number(r, intensity)?, number(r, demand).filter(|_| r.good() && !r.overturned())?),
+            row,
+        ))
     };
-    let (points, rows): (Vec<_>, Vec<_>) = records.iter().enumerate().filter_map(one).unzip();
+    let (points, rows): (Vec<_>, Vec<_>) = runs.iter().copied().enumerate().filter_map(one).unzip();
     let mut over =
         Figure::new("Demand over intensity", study.label(intensity), study.label(demand))
             .colored("runs", Stroke::Rings, Color::CONTEXT, points)

@@ -1,6 +1,6 @@
 //! Mode charts: the first figure of every paper on free-standing blocks.
 
-use crate::{Record, Study};
+use crate::{Row, Study};
 use trilith::report::{Color, Figure, Stroke};
 use trilith::theory;
 
@@ -17,11 +17,11 @@ const BAND: f64 = 0.02;
 
 pub(super) fn draw(
     study: &Study,
-    records: &[Record],
+    runs: &[Row<'_>],
     (x, y): (&str, &str),
     slenderness: f64,
 ) -> Figure {
-    let place = |r: &Record| {
+    let place = |r: Row<'_>| {
         let number = |name| r.number(&study.varied, &study.columns, name);
         Some((number(x)?, number(y)?))
     };
@@ -32,8 +32,8 @@ pub(super) fn draw(
     let (mut judged, mut differ, mut crosses) = (0, 0, Vec::new());
     let mut points = MODES.map(|_| Vec::new());
     let mut rows = MODES.map(|_| Vec::new());
-    for (row, r) in records.iter().enumerate() {
-        let (Some((mu, a)), Some(mode)) = (place(r), r.initial_mode.as_deref()) else { continue };
+    for (row, r) in runs.iter().copied().enumerate() {
+        let (Some((mu, a)), Some(mode)) = (place(r), r.initial_mode()) else { continue };
         (right, top) = (right.max(mu), top.max(a));
         if let Some(i) = MODES.iter().position(|m| m.0 == mode) {
             points[i].push((mu, a));

@@ -1,20 +1,20 @@
 //! Overturning spectra.
 
-use crate::{Record, Study};
+use crate::{Row, Study};
 use trilith::report::{Color, Figure, Stroke};
 use trilith::theory;
 
 pub(super) fn draw(
     study: &Study,
-    records: &[Record],
+    runs: &[Row<'_>],
     (frequency, amplitude): (&str, &str),
     half_sine: bool,
 ) -> Figure {
-    let number = |r: &Record, name| r.number(&study.varied, &study.columns, name);
+    let number = |r: Row<'_>, name| r.number(&study.varied, &study.columns, name);
     let points = |fallen: bool| {
-        let these = records.iter().enumerate();
+        let these = runs.iter().copied().enumerate();
         these
-            .filter(move |(_, r)| r.good && r.overturned == fallen)
+            .filter(move |(_, r)| r.good() && r.overturned() == fallen)
             .filter_map(|(row, r)| Some(((number(r, frequency)?, number(r, amplitude)?), row)))
             .unzip::<_, _, Vec<_>, Vec<_>>()
     };

@@ -1,37 +1,37 @@
 //! Ensembles: medians and bands; and plain points.
 
 use super::fragile::value_text;
-use crate::{Record, Study};
+use crate::{Row, Study};
 use trilith::report::{Color, Figure, Stroke};
 
 /// Most colours of points.
 const COLORS: usize = 6;
 
-pub(super) fn spread(study: &Study, records: &[Record], x: &str, y: &str) -> Vec<Figure> {
-    let groups = study.groups(records);
+pub(super) fn spread(study: &Study, runs: &[Row<'_>], x: &str, y: &str) -> Vec<Figure> {
+    let groups = study.groups(runs);
     let column = study.columns.iter().position(|c| c.name == y);
     let text = study.is_text(x);
-    let at = |i: usize, r: &Record| {
+    let at = |i: usize, r: Row<'_>| {
         if text { Some((i + 1) as f64) } else { r.number(&study.varied, &study.columns, x) }
     };
     let (mut low, mut median, mut high) = (Vec::new(), Vec::new(), Vec::new());
     let (mut nominal, mut flagged, mut singles) = (Vec::new(), Vec::new(), Vec::new());
-    let counted = study.counted(records);
+    let counted = study.counted(runs);
     let mut shares = vec![Vec::new(); counted.len()];
     let mut rows = Vec::new();
     for (i, group) in groups.iter().enumerate() {
-        let Some(first) = group.records.first() else { continue };
+        let Some(first) = group.runs.first().copied() else { continue };
         let Some(place) = at(i, first) else { continue };
-        let value = |r: &Record| r.number(&study.varied, &study.columns, y);
-        for r in &group.records {
+        let value = |r: Row<'_>| r.number(&study.varied, &study.columns, y);
+        for r in group.runs.iter().copied() {
             // Records stand in the order of their runs.
-            let row = records.binary_search_by_key(&r.run, |x| x.run);
+            let row = runs.binary_search_by_key(&r.run(), |x| x.run());
             if let (Some(v), Ok(row)) = (value(r), row) {
                 singles.push((place, v));
                 rows.push(row);
             }
         }
-        if study.plan.place(first.run).member == 0
+        if study.plan.place(first.run()).member == 0
             && let Some(v) = value(first)
         {
             nominal.push((place, v));
@@ -66,14 +66,14 @@ pub(super) fn spread(study: &Study, records: &[Record], x: &str, y: &str) -> Vec
         figure = figure.colored("sensitive", Stroke::Crosses, Color::PALETTE[1], flagged);
     }
     // A body that fell has turned by whatever the end of the run left it: its frame would hide all others.
-    let fell = records.iter().any(|r| r.overturned);
-    let standing = |r: &&Record| !r.overturned;
-    let places = || groups.iter().enumerate().filter_map(|(i, g)| at(i, g.records.first()?));
+    let fell = runs.iter().any(|r| r.overturned());
+    let standing = |r: &Row<'_>| !r.overturned();
+    let places = || groups.iter().enumerate().filter_map(|(i, g)| at(i, *g.runs.first()?));
     let (mut left, mut right) = (f64::INFINITY, f64::NEG_INFINITY);
     places().for_each(|x| (left, right) = (left.min(x), right.max(x)));
     let values = || {
-        let of = |r: &Record| r.number(&study.varied, &study.columns, y);
-        records.iter().filter(standing).filter_map(of)
+        let of = |r: Row<'_>| r.number(&study.varied, &study.columns, y);
+        runs.iter().copied().filter(standing).filter_map(of)
     };
     let (low, high) = (values().fold(0.0f64, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
     if fell && high > low && right > left {
@@ -109,14 +109,14 @@ type Point = ((f64, f64), usize);
 
 pub(super) fn points(
     study: &Study,
-    records: &[Record],
+    runs: &[Row<'_>],
     (x, y): (&str, &str),
     by: Option<&str>,
 ) -> Figure {
     let title = format!("{} over {}", y.replace('_', " "), x.replace('_', " "));
     let mut figure = Figure::new(title, study.label(x), study.label(y));
     let mut groups: Vec<(String, Vec<Point>)> = Vec::new();
-    for (row, r) in records.iter().enumerate() {
+    for (row, r) in runs.iter().copied().enumerate() {
         let number = |name| r.number(&study.varied, &study.columns, name);
         let (Some(a), Some(b)) = (number(x), number(y)) else { continue };
         let name = by.map_or_else(String::new, |by| value_text(study, r, by));

@@ -2,7 +2,7 @@
 
 use super::ROWS;
 use crate::statistics::{Group, Sensitivity};
-use crate::{Record, Study};
+use crate::{Row, Study};
 use trilith::report::{Block, Section, short};
 
 /// Longest number of an axis that is shown as it is, letters.
@@ -12,15 +12,15 @@ const DIGITS: usize = 6;
 /// Columns whose quantiles a table shows side by side.
 const SIDE_BY_SIDE: usize = 4;
 
-pub(super) fn section(study: &Study, records: &[Record]) -> Section {
-    let groups = study.groups(records);
+pub(super) fn section(study: &Study, runs: &[Row<'_>]) -> Section {
+    let groups = study.groups(runs);
     let shown = &groups[..groups.len().min(ROWS)];
     let mut section = Section::new("statistics", "Statistics");
     let columns: Vec<usize> = (0..study.columns.len()).collect();
     for part in columns.chunks(SIDE_BY_SIDE).take(2) {
         section = section.block(quantiles(study, shown, part));
     }
-    if let Some(block) = shares(study, shown, records) {
+    if let Some(block) = shares(study, shown, runs) {
         section = section.block(block);
     }
     let all: Vec<Sensitivity> = groups.iter().filter_map(|g| study.sensitivity(g)).collect();
@@ -87,7 +87,7 @@ fn point(study: &Study, g: &Group<'_>) -> Vec<String> {
     if study.plan.rows.len() > 1 {
         cells.push((g.place.row + 1).to_string());
     }
-    cells.push(g.records.len().to_string());
+    cells.push(g.runs.len().to_string());
     if study.stop.is_some() {
         cells.push(g.stopped.len().to_string());
     }
@@ -113,8 +113,8 @@ fn quantiles(study: &Study, groups: &[Group<'_>], columns: &[usize]) -> Block {
 }
 
 /// Probabilities of events and sensitivity; none where there is neither.
-fn shares(study: &Study, groups: &[Group<'_>], records: &[Record]) -> Option<Block> {
-    let counted = study.counted(records);
+fn shares(study: &Study, groups: &[Group<'_>], runs: &[Row<'_>]) -> Option<Block> {
+    let counted = study.counted(runs);
     let ensemble = study.plan.ensemble.is_some();
     if counted.is_empty() && !ensemble {
         return None;
