@@ -384,6 +384,8 @@ impl Range {
             Self::Positive => "> 0".into(),
             Self::NonNegative => "≥ 0".into(),
             Self::Within(a, b) => format!("between {a} and {b}"),
+            // The number before 1: up to 1, which is not included.
+            Self::Above(a, b) if b == 1.0 - f64::EPSILON => format!("> {a} and < 1"),
             Self::Above(a, b) => format!("> {a} and ≤ {b}"),
         }
     }

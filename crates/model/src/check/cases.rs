@@ -8,7 +8,7 @@ use crate::{
 use trilith_element::{Dof, Range};
 
 /// A tolerance: above zero, below one.
-pub(crate) const TOLERANCE: Range = Range::Within(f64::MIN_POSITIVE, 1.0 - f64::EPSILON);
+pub(crate) const TOLERANCE: Range = Range::Above(0.0, 1.0 - f64::EPSILON);
 
 /// Least α of HHT: −1/3, rounding apart.
 pub(crate) const LEAST_ALPHA: f64 = -1.0 / 3.0 - 1e-12;
@@ -120,7 +120,7 @@ impl Check<'_> {
 
     fn tolerance(&mut self, part: &Part, name: &'static str, value: f64) {
         if !TOLERANCE.contains(value) {
-            let allowed = "> 0 and < 1".into();
+            let allowed = TOLERANCE.text();
             self.report(part, ModelFault::Number { name, value, allowed });
         }
     }

@@ -6,8 +6,8 @@ use crate::schema;
 use crate::tree::{Entry, Node};
 use crate::{AfterEnd, Interpolation, Table, TimeFunction};
 use std::sync::Arc;
-use trilith_element::dimension::{ACCELERATION, FREQUENCY, NONE, TIME};
-use trilith_element::{Dimension, Range};
+use trilith_element::Range;
+use trilith_element::dimension::{ACCELERATION, TIME};
 use trilith_record::process::{Baseline, Filter, Padding, Processing, Resampling, scaled};
 
 /// An accelerogram times a factor as a table, with its first sample at `start`.
@@ -32,20 +32,6 @@ pub(super) fn table_of(
     }
 }
 
-/// A field that may be missing.
-pub(super) fn optional(
-    c: &Context<'_>,
-    fields: &Fields<'_>,
-    key: &str,
-    dimension: Dimension,
-    range: Range,
-) -> Option<Option<f64>> {
-    match fields.get(key) {
-        None => Some(None),
-        Some(n) => c.ranged(n, key, dimension, range).map(Some),
-    }
-}
-
 /// `trim`, `baseline`, `taper`, `filter`, `resample`, `scale_to`, `scale`.
 pub(super) fn processing(c: &Context<'_>, fields: &Fields<'_>, what: &str) -> Option<Processing> {
     let trim = match fields.get("trim") {
@@ -59,14 +45,11 @@ pub(super) fn processing(c: &Context<'_>, fields: &Fields<'_>, what: &str) -> Op
         },
     };
     let baseline = fields.get("baseline").map_or(Some(None), |n| baseline(c, n, what).map(Some));
-    let taper = optional(c, fields, "taper", NONE, Range::Within(0.0, 0.5));
+    let taper = fields.number_if(c, "taper");
     let filter = fields.get("filter").map_or(Some(None), |n| filter(c, n, what).map(Some));
     let resample = fields.get("resample").map_or(Some(None), |n| resampling(c, n, what).map(Some));
-    let scale_to = optional(c, fields, "scale_to", ACCELERATION, Range::Positive);
-    let scale = match fields.get("scale") {
-        None => Some(None),
-        Some(n) => c.number(n, NONE).map(Some),
-    };
+    let scale_to = fields.number_if(c, "scale_to");
+    let scale = fields.number_if(c, "scale");
     Some(Processing {
         trim: trim?,
         baseline: baseline?,
@@ -84,15 +67,13 @@ fn baseline(c: &Context<'_>, node: &Node, what: &str) -> Option<Baseline> {
         1 => Some(Baseline::Linear),
         2 => {
             let fields = c.block(node, &format!("the baseline of {what}"), &schema::POLYNOMIAL)?;
-            let n = fields.required(c, "order")?;
-            match c.count(n, "order", 0)? {
-                order if order <= 20 => Some(Baseline::Polynomial(order)),
-                order => {
-                    let message = format!("`order` = {order}: must be between 0 and 20");
-                    c.report(c.diagnostic("E0112", message, n.span.clone()));
-                    None
-                }
+            let (n, order) = (fields.required(c, "order")?, fields.count(c, "order")?);
+            if order > 20 {
+                let message = format!("`order` = {order}: must be between 0 and 20");
+                c.report(c.diagnostic("E0112", message, n.span.clone()));
+                return None;
             }
+            Some(Baseline::Polynomial(order))
         }
         _ => Some(Baseline::Rest),
     }
@@ -102,12 +83,11 @@ fn baseline(c: &Context<'_>, node: &Node, what: &str) -> Option<Baseline> {
 fn filter(c: &Context<'_>, node: &Node, what: &str) -> Option<Filter> {
     let kind = c.one_of(node, "filter", &schema::FILTER)?;
     let fields = c.block(node, &format!("the filter of {what}"), kind)?;
-    let highpass = optional(c, &fields, "highpass", FREQUENCY, Range::Positive);
-    let lowpass = optional(c, &fields, "lowpass", FREQUENCY, Range::Positive);
-    let order = fields.get("order").map_or(Some(4), |n| c.count(n, "order", 1));
-    let causal = fields.get("causal").map_or(Some(false), |n| c.flag(n, "causal"));
-    let padding =
-        fields.get("padding").map_or(Some(1), |n| c.choice(n, "padding", &schema::PADDINGS));
+    let highpass = fields.number_if(c, "highpass");
+    let lowpass = fields.number_if(c, "lowpass");
+    let order = fields.count(c, "order");
+    let causal = fields.flag(c, "causal");
+    let padding = fields.choice(c, "padding", "padding");
     Some(Filter {
         highpass: highpass?,
         lowpass: lowpass?,
@@ -125,7 +105,7 @@ fn resampling(c: &Context<'_>, node: &Node, what: &str) -> Option<(f64, Resampli
     }
     let kind = c.one_of(node, "resampling", &schema::RESAMPLE)?;
     let fields = c.block(node, &format!("the resampling of {what}"), kind)?;
-    let dt = c.ranged(fields.required(c, "dt")?, "dt", TIME, Range::Positive)?;
+    let dt = fields.number(c, "dt")?;
     let linear = kind.name == "Linear";
     Some((dt, if linear { Resampling::Linear } else { Resampling::BandLimited }))
 }

@@ -3,7 +3,7 @@
 use super::context::{Context, Fields};
 use super::groups::several;
 use super::names::Names;
-use crate::schema::{self, Block, PER_LENGTH};
+use crate::schema::{self, Block};
 use crate::tree::Node;
 use crate::{Body, Element, MemberLoad, Span};
 use trilith_element::dimension::{FORCE, LENGTH, MOMENT, NONE, STIFFNESS};
@@ -114,7 +114,7 @@ pub(super) fn place(c: &Context<'_>, node: &Node, name: &str, length: f64) -> Op
 fn load(
     c: &Context<'_>,
     fields: &Fields<'_>,
-    block: &Block,
+    block: &'static Block,
     what: &str,
     member: &Found<'_>,
 ) -> Option<Vec<SpanLoad>> {
@@ -123,10 +123,8 @@ fn load(
         fields.get(key).map_or(Some(without), |n| place(c, n, key, length))
     };
     if block.name == schema::TEMPERATURE.name {
-        let number =
-            |key: &str, d: Dimension| fields.get(key).map_or(Some(0.0), |n| c.number(n, d));
-        let rise = number("rise", NONE);
-        let gradients = ["gradient_2", "gradient_3"].map(|key| number(key, PER_LENGTH));
+        let rise = fields.number(c, "rise");
+        let gradients = ["gradient_2", "gradient_3"].map(|key| fields.number(c, key));
         let [a, b] = gradients;
         return Some(vec![SpanLoad::Warmth { rise: rise?, gradients: [a?, b?] }]);
     }
@@ -137,7 +135,7 @@ fn load(
         let size = size?;
         return Some(vec![SpanLoad::Point { at: at?, load: way.local.map(|x| x * size) }]);
     }
-    let projected = fields.get("projected").map_or(Some(false), |n| c.flag(n, "projected"))?;
+    let projected = fields.flag(c, "projected")?;
     let local = match (projected, way.global) {
         (false, _) => way.local,
         (true, Some(global)) => {

@@ -29,7 +29,7 @@ pub(super) fn cases(
         let after = after(c, &fields, &names, i);
         let analysis = if kind.name == "Static" {
             let applied = fields.required(c, "loads").and_then(|n| loads::list(c, n, about.loads));
-            let steps = fields.get("steps").map_or(Some(1), |n| c.count(n, "steps", 1));
+            let steps = fields.count(c, "steps");
             Analysis::Static(StaticCase { loads: applied?, steps: steps? })
         } else {
             Analysis::Dynamic(Box::new(dynamic::dynamic(c, &fields, about)?))

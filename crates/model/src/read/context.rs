@@ -38,15 +38,18 @@ pub struct Context<'a> {
 pub struct Fields<'n> {
     what: String,
     span: Span,
+    /// The block of the schema, where they are of one.
+    pub(super) block: Option<&'static Block>,
     entries: &'n [Entry],
     /// What takes the place of some of them.
     instead: &'n [Entry],
 }
 
 impl<'n> Fields<'n> {
-    /// No fields, where a value stands for all of them.
-    pub(crate) fn none(node: &Node) -> Self {
-        Self { what: node.describe(), span: node.span.clone(), entries: &[], instead: &[] }
+    /// No fields of a block, where a value stands for all of them.
+    pub(crate) fn none(node: &Node, block: &'static Block) -> Self {
+        let (what, span, block) = (node.describe(), node.span.clone(), Some(block));
+        Self { what, span, block, entries: &[], instead: &[] }
     }
 
     /// The value of a field.
@@ -211,8 +214,14 @@ impl<'a> Context<'a> {
     }
 
     /// The fields of a block of the schema. Unknown ones are reported.
-    pub fn block<'n>(&self, node: &'n Node, what: &str, block: &Block) -> Option<Fields<'n>> {
-        self.fields(node, what, &block.names())
+    pub fn block<'n>(
+        &self,
+        node: &'n Node,
+        what: &str,
+        block: &'static Block,
+    ) -> Option<Fields<'n>> {
+        let fields = self.fields(node, what, &block.names())?;
+        Some(Fields { block: Some(block), ..fields })
     }
 
     /// The block of a group that a value names.
@@ -241,7 +250,8 @@ impl<'a> Context<'a> {
             }
             self.report(d);
         }
-        Some(Fields { what: what.to_owned(), span: node.name_span(), entries, instead: &[] })
+        let (what, span) = (what.to_owned(), node.name_span());
+        Some(Fields { what, span, block: None, entries, instead: &[] })
     }
 
     /// Which of these names a value has, as `Name`, `Name(…)` or a text, or as the text of a parameter: `"parameter"` or

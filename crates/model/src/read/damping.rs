@@ -7,7 +7,7 @@ use crate::schema;
 use crate::tree::Node;
 use std::f64::consts::TAU;
 use trilith_element::Range;
-use trilith_element::dimension::{FREQUENCY, NONE, TIME};
+use trilith_element::dimension::{FREQUENCY, NONE};
 
 pub(super) fn damping(c: &Context<'_>, node: &Node) -> Option<Damping> {
     let what = "`damping`";
@@ -16,26 +16,18 @@ pub(super) fn damping(c: &Context<'_>, node: &Node) -> Option<Damping> {
         "None" => c.block(node, what, kind).map(|_| Damping::None),
         "Modal" => {
             let fields = c.block(node, what, kind)?;
-            let ratio = c.ranged(fields.required(c, "ratio")?, "ratio", NONE, RATIO)?;
-            Some(Damping::Modal { ratio })
+            fields.number(c, "ratio").map(|ratio| Damping::Modal { ratio })
         }
         "ModalTable" => table(c, node),
         "Rayleigh" => {
             let fields = c.block(node, what, kind)?;
-            let one = |key, dimension| {
-                fields
-                    .get(key)
-                    .map_or(Some(0.0), |n| c.ranged(n, key, dimension, Range::NonNegative))
-            };
-            let (mass, stiffness) = (one("mass", FREQUENCY), one("stiffness", TIME));
+            let (mass, stiffness) = (fields.number(c, "mass"), fields.number(c, "stiffness"));
             Some(Damping::Rayleigh { mass: mass?, stiffness: stiffness? })
         }
         _ => {
             let fields = c.block(node, what, kind)?;
-            let ratio = fields.required(c, "ratio").and_then(|n| c.ranged(n, "ratio", NONE, RATIO));
-            let frequency = |key: &str| {
-                c.ranged(fields.required(c, key)?, key, FREQUENCY, Range::Positive).map(|f| TAU * f)
-            };
+            let ratio = fields.number(c, "ratio");
+            let frequency = |key: &str| fields.number(c, key).map(|f| TAU * f);
             let (w1, w2) = (frequency("f1"), frequency("f2"));
             let (ratio, w1, w2) = (ratio?, w1?, w2?);
             // ζ = mass/(2ω) + stiffness·ω/2 at both frequencies.

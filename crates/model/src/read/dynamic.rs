@@ -11,8 +11,8 @@ use crate::{
     SupportMotion, output_steps,
 };
 use std::collections::HashSet;
-use trilith_element::dimension::{ACCELERATION, FREQUENCY, LENGTH, NONE, TIME, VELOCITY};
-use trilith_element::{Dimension, Dof, Range};
+use trilith_element::dimension::{ACCELERATION, FREQUENCY, LENGTH, NONE, VELOCITY};
+use trilith_element::{Dimension, Dof};
 
 struct Reading<'c, 'n> {
     c: &'c Context<'c>,
@@ -25,8 +25,7 @@ pub(super) fn dynamic(
     fields: &Fields<'_>,
     about: &Surroundings<'_, '_>,
 ) -> Option<DynamicCase> {
-    let time = |key: &str| c.ranged(fields.required(c, key)?, key, TIME, Range::Positive);
-    let (duration, dt) = (time("duration"), time("dt"));
+    let (duration, dt) = (fields.number(c, "duration"), fields.number(c, "dt"));
     if let (Some(duration), Some(dt), Some(node)) = (duration, dt, fields.get("dt"))
         && dt > duration * (1.0 + 1e-9)
     {
@@ -88,9 +87,7 @@ impl Reading<'_, '_> {
     fn base(&self, node: &Node) -> Option<[BaseMotion; 1]> {
         let c = self.c;
         let fields = c.block(node, "a base motion", schema::BASE_MOTION.blocks[0])?;
-        let direction = fields
-            .required(c, "direction")
-            .and_then(|n| c.choice(n, "direction", &schema::BASE_DIRECTIONS));
+        let direction = fields.choice(c, "direction", "direction");
         let (function, factor) = self.function(&fields, ACCELERATION)?;
         Some([BaseMotion { direction: Dof::ALL[direction? % 3], function, factor }])
     }

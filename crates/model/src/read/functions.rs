@@ -11,8 +11,8 @@ use crate::schema::{self, Block};
 use crate::tree::{Entry, Kind};
 use crate::{Custom, Function, Harmonic, TimeFunction};
 use std::sync::Arc;
-use trilith_element::dimension::{FREQUENCY, NONE, TIME};
-use trilith_element::{Card, Dimension, Range, ReadFunction};
+use trilith_element::dimension::NONE;
+use trilith_element::{Card, Dimension, ReadFunction};
 
 /// A function and the dimension of its values; no dimension for plain numbers.
 pub(super) type Made = (TimeFunction, Option<Dimension>);
@@ -127,7 +127,7 @@ fn custom(c: &Context<'_>, e: &Entry, card: &'static Card, read: &ReadFunction) 
     Some((TimeFunction::Custom(custom), dimension))
 }
 
-fn function(c: &Context<'_>, e: &Entry, kind: &Block) -> Option<Made> {
+fn function(c: &Context<'_>, e: &Entry, kind: &'static Block) -> Option<Made> {
     let node = &e.value;
     let open = || c.block(node, &what(e), kind);
     match kind.name {
@@ -143,23 +143,19 @@ fn function(c: &Context<'_>, e: &Entry, kind: &Block) -> Option<Made> {
         "Step" => {
             let fields = open()?;
             let (amplitude, dimension) = amplitude(c, &fields)?;
-            let start = time(c, &fields, "start")?;
-            let end = match fields.get("end") {
-                Some(n) => Some((c.number(n, TIME)?, n)),
-                None => None,
-            };
-            if let Some((end, n)) = end.filter(|(end, _)| *end <= start) {
+            let start = fields.number(c, "start")?;
+            let end = fields.number_if(c, "end")?;
+            if let (Some(end), Some(n)) = (end.filter(|end| *end <= start), fields.get("end")) {
                 let message = format!("`end` = {end} s: must be after the start at {start} s");
                 c.report(c.diagnostic("E0112", message, n.span.clone()));
                 return None;
             }
-            let end = end.map(|(end, _)| end);
             Some((TimeFunction::Step { amplitude, start, end }, dimension))
         }
         "Ramp" => {
             let fields = open()?;
-            let (a, start) = (amplitude(c, &fields), time(c, &fields, "start"));
-            let rise = positive(c, &fields, "rise", TIME);
+            let (a, start) = (amplitude(c, &fields), fields.number(c, "start"));
+            let rise = fields.number(c, "rise");
             let (amplitude, dimension) = a?;
             Some((TimeFunction::Ramp { amplitude, start: start?, rise: rise? }, dimension))
         }
@@ -170,8 +166,8 @@ fn function(c: &Context<'_>, e: &Entry, kind: &Block) -> Option<Made> {
         }
         "HalfSine" => {
             let fields = open()?;
-            let (a, start) = (amplitude(c, &fields), time(c, &fields, "start"));
-            let duration = positive(c, &fields, "duration", TIME);
+            let (a, start) = (amplitude(c, &fields), fields.number(c, "start"));
+            let duration = fields.number(c, "duration");
             let (amplitude, dimension) = a?;
             Some((
                 TimeFunction::HalfSine { amplitude, duration: duration?, start: start? },
@@ -180,8 +176,8 @@ fn function(c: &Context<'_>, e: &Entry, kind: &Block) -> Option<Made> {
         }
         "Ricker" => {
             let fields = open()?;
-            let (a, center) = (amplitude(c, &fields), time(c, &fields, "center"));
-            let frequency = positive(c, &fields, "frequency", FREQUENCY);
+            let (a, center) = (amplitude(c, &fields), fields.number(c, "center"));
+            let frequency = fields.number(c, "frequency");
             let (amplitude, dimension) = a?;
             Some((
                 TimeFunction::Ricker { amplitude, frequency: frequency?, center: center? },
@@ -200,22 +196,11 @@ fn amplitude(c: &Context<'_>, fields: &Fields<'_>) -> Option<(f64, Option<Dimens
     Some((q.value, q.measured.then_some(q.dimension)))
 }
 
-fn time(c: &Context<'_>, fields: &Fields<'_>, key: &str) -> Option<f64> {
-    fields.get(key).map_or(Some(0.0), |n| c.number(n, TIME))
-}
-
-fn positive(c: &Context<'_>, fields: &Fields<'_>, key: &str, d: Dimension) -> Option<f64> {
-    c.ranged(fields.required(c, key)?, key, d, Range::Positive)
-}
-
 fn harmonic(c: &Context<'_>, fields: &Fields<'_>) -> Option<(Harmonic, Option<Dimension>)> {
-    let (a, start) = (amplitude(c, fields), time(c, fields, "start"));
-    let frequency = positive(c, fields, "frequency", FREQUENCY);
-    let cycles = match fields.get("cycles") {
-        Some(n) => c.ranged(n, "cycles", NONE, Range::Positive).map(Some),
-        None => Some(None),
-    };
-    let phase = fields.get("phase").map_or(Some(0.0), |n| c.number(n, NONE));
+    let (a, start) = (amplitude(c, fields), fields.number(c, "start"));
+    let frequency = fields.number(c, "frequency");
+    let cycles = fields.number_if(c, "cycles");
+    let phase = fields.number(c, "phase");
     let (amplitude, dimension) = a?;
     let (frequency, cycles, start, phase) = (frequency?, cycles?, start?, phase?);
     Some((Harmonic { amplitude, frequency, cycles, start, phase }, dimension))

@@ -7,7 +7,7 @@ use super::names::Names;
 use crate::schema;
 use crate::tree::{Entry, Kind, Node};
 use crate::{Load, NodalForce, Pattern};
-use trilith_element::dimension::{FORCE, MOMENT, NONE};
+use trilith_element::dimension::{FORCE, MOMENT};
 
 pub(super) fn patterns(
     c: &Context<'_>,
@@ -61,7 +61,7 @@ fn load(c: &Context<'_>, node: &Node, loads: &Names<'_>) -> Option<Load> {
     if node.name().is_some() {
         c.choice(node, "load", &[schema::GRAVITY.name])?;
         let fields = c.block(node, "`Gravity`", &schema::GRAVITY)?;
-        let factor = fields.get("factor").map_or(Some(1.0), |n| c.number(n, NONE))?;
+        let factor = fields.number(c, "factor")?;
         return Some(Load::Gravity { factor });
     }
     if let Kind::Text(_) = node.kind {
@@ -69,6 +69,6 @@ fn load(c: &Context<'_>, node: &Node, loads: &Names<'_>) -> Option<Load> {
     }
     let fields = c.block(node, "a load", &schema::LOAD)?;
     let pattern = fields.required(c, "load").and_then(|n| loads.refer(c, n));
-    let factor = fields.get("factor").map_or(Some(1.0), |n| c.number(n, NONE));
+    let factor = fields.number(c, "factor");
     Some(Load::Pattern { pattern: pattern?, factor: factor? })
 }

@@ -2,7 +2,7 @@
 
 use super::context::{Context, Fields};
 use crate::diagnostic::{closest, names_help};
-use crate::schema::{self, Default, Takes};
+use crate::schema::{self};
 use crate::sections::{self, Section, Shape};
 use crate::tree::{Entry, Kind, Node};
 use trilith_element::Card;
@@ -80,19 +80,6 @@ pub(super) fn made(c: &Context<'_>, card: &Card, entries: &[Entry], what: &str) 
     good.then_some(Made { numbers: all, shape })
 }
 
-/// A field with its default, in SI.
-fn number(c: &Context<'_>, fields: &Fields<'_>, block: &schema::Block, key: &str) -> Option<f64> {
-    let field = block.fields.iter().find(|f| f.name == key)?;
-    let Takes::Number(dimension, range) = field.takes else { return None };
-    match (fields.get(key), field.default) {
-        (Some(node), _) => c.ranged(node, key, dimension, range),
-        (None, Default::Value(text)) => {
-            crate::expression::quantity(text.trim_matches('"'), dimension).ok()
-        }
-        (None, _) => fields.required(c, key).and(None),
-    }
-}
-
 /// The only value in `Name("value")`.
 fn only<'n>(node: &'n Node, block: &schema::Block) -> Option<&'n Node> {
     match &node.kind {
@@ -114,7 +101,7 @@ fn section(c: &Context<'_>, node: &Node) -> Option<Section> {
     let block = c.one_of(node, "section", &schema::SECTIONS)?;
     let fields = c.block(node, &format!("`{}`", block.name), block)?;
     let read = |keys: &[&str]| -> Option<Vec<f64>> {
-        let all: Vec<_> = keys.iter().map(|key| number(c, &fields, block, key)).collect();
+        let all: Vec<_> = keys.iter().map(|key| fields.number(c, key)).collect();
         all.into_iter().collect()
     };
     let hollow = |key: &str, of: f64, most: f64| {
@@ -134,7 +121,7 @@ fn section(c: &Context<'_>, node: &Node) -> Option<Section> {
             let all = read(&["width", "depth", "thickness"])?;
             let (b, h, web) = (all[0], all[1], all[2]);
             let flange = match fields.get("flange") {
-                Some(_) => number(c, &fields, block, "flange")?,
+                Some(_) => fields.number(c, "flange")?,
                 None => web,
             };
             match (web > 0.5 * b, flange > 0.5 * h) {
@@ -198,16 +185,16 @@ fn rolled(c: &Context<'_>, node: &Node) -> Option<Section> {
 fn material(c: &Context<'_>, node: &Node) -> Option<Numbers> {
     if let Some(class) = only(node, &schema::CONCRETE) {
         let young = young_of_class(c, class)?;
-        return rest(c, &Fields::none(node), &schema::CONCRETE, young);
+        return rest(c, &Fields::none(node, &schema::CONCRETE), young);
     }
     let block = c.one_of(node, "material", &schema::MATERIALS)?;
     let fields = match node.kind {
-        Kind::Text(_) => Fields::none(node),
+        Kind::Text(_) => Fields::none(node, block),
         _ => c.block(node, &format!("`{}`", block.name), block)?,
     };
     if block.name != schema::CONCRETE.name {
-        let young = number(c, &fields, block, "young");
-        return rest(c, &fields, block, young?);
+        let young = fields.number(c, "young");
+        return rest(c, &fields, young?);
     }
     let young = match (fields.get("class"), fields.get("strength")) {
         (Some(_), Some(twice)) => {
@@ -217,23 +204,18 @@ fn material(c: &Context<'_>, node: &Node) -> Option<Numbers> {
             None
         }
         (Some(class), None) => young_of_class(c, class),
-        (None, Some(_)) => number(c, &fields, block, "strength").map(|f| 4.7e9 * (f / 1e6).sqrt()),
+        (None, Some(_)) => fields.number(c, "strength").map(|f| 4.7e9 * (f / 1e6).sqrt()),
         (None, None) => fields.required(c, "class").and(None),
     };
-    rest(c, &fields, block, young?)
+    rest(c, &fields, young?)
 }
 
 /// The modulus and what else a material gives.
-fn rest(
-    c: &Context<'_>,
-    fields: &Fields<'_>,
-    block: &schema::Block,
-    young: f64,
-) -> Option<Numbers> {
+fn rest(c: &Context<'_>, fields: &Fields<'_>, young: f64) -> Option<Numbers> {
     let mut made = vec![("young", young)];
     let mut good = true;
     for key in ["poisson", "density", "expansion"] {
-        match number(c, fields, block, key) {
+        match fields.number(c, key) {
             Some(x) => made.push((key, x)),
             None => good = false,
         }

@@ -7,6 +7,7 @@ mod combinations;
 mod context;
 mod custom;
 mod damping;
+mod declared;
 mod dynamic;
 mod elements;
 mod envelopes;

@@ -124,12 +124,12 @@ impl Reading<'_, '_> {
         &self,
         node: &Node,
         what: &str,
-        kind: &Block,
+        kind: &'static Block,
         order: usize,
     ) -> Option<(Quantity, String)> {
         let c = self.c;
         let fields = c.block(node, what, kind)?;
-        let absolute = fields.get("absolute").map_or(Some(false), |n| c.flag(n, "absolute"));
+        let absolute = if order == 2 { fields.flag(c, "absolute") } else { Some(false) };
         let mut terms: Vec<Option<(NodalTerm, Dimension)>> = Vec::new();
         let mut target = None;
         if let Some(list) = fields.get("terms") {
@@ -207,7 +207,7 @@ impl Reading<'_, '_> {
         fields.get("factor").map_or(Some(Number::bare(1.0)), |n| self.c.quantity(n))
     }
 
-    fn history(&self, node: &Node, what: &str, kind: &Block) -> Option<(Quantity, String)> {
+    fn history(&self, node: &Node, what: &str, kind: &'static Block) -> Option<(Quantity, String)> {
         let c = self.c;
         let fields = c.block(node, what, kind)?;
         let variable = fields.required(c, "variable")?;

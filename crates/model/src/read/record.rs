@@ -9,8 +9,7 @@ use crate::diagnostic::names_help;
 use crate::schema;
 use crate::tree::{Entry, Kind, Node};
 use std::path::Path;
-use trilith_element::Range;
-use trilith_element::dimension::{ACCELERATION, TIME};
+use trilith_element::dimension::ACCELERATION;
 use trilith_record::{Column, Columns, Component, Format, Problem, ReadError, ReadOptions};
 
 /// A column as the file names it.
@@ -74,8 +73,8 @@ fn list(names: &[String]) -> String {
 pub(super) fn record(c: &Context<'_>, e: &Entry) -> Option<Made> {
     let fields = c.block(&e.value, &what(e), &schema::RECORD)?;
     let processing = processing(c, &fields, &what(e));
-    let after_end = after_end(c, &fields, 1);
-    let start = fields.get("start").map_or(Some(0.0), |n| c.number(n, TIME));
+    let after_end = after_end(c, &fields);
+    let start = fields.number(c, "start");
     let options = options(c, &fields);
     let component = match fields.get("component") {
         None => Some(None),
@@ -122,10 +121,7 @@ fn options(c: &Context<'_>, fields: &Fields<'_>) -> Option<ReadOptions> {
         None => Some(None),
         Some(n) => unit(c, n).and_then(|q| c.in_dimension(n, q, ACCELERATION)).map(Some),
     };
-    let dt = match fields.get("dt") {
-        None => Some(None),
-        Some(n) => c.ranged(n, "dt", TIME, Range::Positive).map(Some),
-    };
+    let dt = fields.number_if(c, "dt");
     Some(ReadOptions { format: format?, unit: unit?, dt: dt? })
 }
 

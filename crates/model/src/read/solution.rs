@@ -3,29 +3,22 @@
 use super::context::{Context, Fields};
 use super::custom;
 use super::elements::allowed;
-use crate::check::{LEAST_ALPHA, TOLERANCE};
+use crate::check::LEAST_ALPHA;
 use crate::registry::Reader;
 use crate::schema;
 use crate::tree::Node;
 use crate::{Basis, BasisKind, Kernel, Solution, SolverKind, StepControl};
-use trilith_element::Range;
 use trilith_element::dimension::NONE;
 
 pub(super) fn solution(c: &Context<'_>, fields: &Fields<'_>) -> Option<Solution> {
     let plain = Solution::default();
     let solver = fields.get("solver").map_or(Some(plain.solver), |n| solver(c, n));
     let step = fields.get("step").map_or(Some(plain.step), |n| step(c, n));
-    let kernel = fields.get("kernel").map_or(Some(plain.kernel), |n| {
-        let all = [Kernel::Newton, Kernel::FixedPoint];
-        c.choice(n, "kernel", &schema::KERNELS).map(|i| all[i])
-    });
-    let share =
-        |name: &str, plain: f64| fields.get(name).map_or(Some(plain), |n| tolerance(c, n, name));
-    let link_tolerance = share("link_tolerance", plain.link_tolerance);
-    let energy_limit = share("energy_limit", plain.energy_limit);
-    let substep_limit = fields
-        .get("substep_limit")
-        .map_or(Some(None), |n| c.count(n, "substep_limit", 1).map(Some));
+    let kernel = fields.choice(c, "kernel", "kernel");
+    let kernel = kernel.map(|i| [Kernel::Newton, Kernel::FixedPoint][i]);
+    let link_tolerance = fields.number(c, "link_tolerance");
+    let energy_limit = fields.number(c, "energy_limit");
+    let substep_limit = fields.count_if(c, "substep_limit");
     let basis = fields.get("basis").map_or(Some(plain.basis), |n| basis(c, n));
     let alpha = fields.get("alpha").map_or(Some(plain.alpha), |n| alpha(c, n));
     Some(Solution {
@@ -54,16 +47,6 @@ fn solver(c: &Context<'_>, node: &Node) -> Option<SolverKind> {
     c.choice(node, "solver", &names).and_then(|i| SolverKind::ALL.get(i).copied())
 }
 
-fn tolerance(c: &Context<'_>, node: &Node, name: &str) -> Option<f64> {
-    let value = c.number(node, NONE)?;
-    if TOLERANCE.contains(value) {
-        return Some(value);
-    }
-    let message = format!("`{name}` = {value}: must be > 0 and < 1");
-    c.report(c.diagnostic("E0112", message, node.span.clone()));
-    None
-}
-
 fn alpha(c: &Context<'_>, node: &Node) -> Option<f64> {
     let value = c.number(node, NONE)?;
     if (LEAST_ALPHA..=0.0).contains(&value) {
@@ -78,29 +61,24 @@ fn step(c: &Context<'_>, node: &Node) -> Option<StepControl> {
     let kind = c.one_of(node, "step control", &schema::STEPS)?;
     let fields = c.block(node, &format!("`{}`", kind.name), kind)?;
     if kind.name == "Adaptive" {
-        let plain = StepControl::default();
-        let Some(node) = fields.get("tolerance") else { return Some(plain) };
-        return tolerance(c, node, "tolerance")
-            .map(|tolerance| StepControl::Adaptive { tolerance });
+        let tolerance = fields.number(c, "tolerance");
+        return tolerance.map(|tolerance| StepControl::Adaptive { tolerance });
     }
-    let substeps = fields.get("substeps").map_or(Some(1), |n| c.count(n, "substeps", 1))?;
-    Some(StepControl::Fixed { substeps })
+    fields.count(c, "substeps").map(|substeps| StepControl::Fixed { substeps })
 }
 
 fn basis(c: &Context<'_>, node: &Node) -> Option<Basis> {
-    let plain = Basis::default();
     let kind = c.choice(node, "basis", &schema::BASES.names())?;
     let block = schema::BASES.blocks[kind];
     let fields = c.block(node, &format!("`{}`", block.name), block)?;
-    let vectors = fields.get("vectors").map_or(Some(None), |n| c.count(n, "vectors", 1).map(Some));
-    let adequacy = fields
-        .get("adequacy")
-        .map_or(Some(plain.adequacy), |n| c.ranged(n, "adequacy", NONE, Range::Within(0.0, 1.0)));
-    let tolerance = fields
-        .get("tolerance")
-        .map_or(Some(plain.tolerance), |n| c.ranged(n, "tolerance", NONE, Range::Within(0.0, 1.0)));
-    let enrich = fields.get("enrich").map_or(Some(plain.enrich), |n| c.flag(n, "enrich"));
     let kind = [BasisKind::Ritz, BasisKind::Eigen, BasisKind::Complete][kind];
+    if kind == BasisKind::Complete {
+        return Some(Basis { kind, ..Basis::default() });
+    }
+    let vectors = fields.count_if(c, "vectors");
+    let adequacy = fields.number(c, "adequacy");
+    let tolerance = fields.number(c, "tolerance");
+    let enrich = fields.flag(c, "enrich");
     Some(Basis {
         kind,
         vectors: vectors?,

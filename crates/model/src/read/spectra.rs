@@ -101,11 +101,12 @@ fn series(c: &Context<'_>, node: &Node, name: &str, dimension: Dimension) -> Opt
         return list(c, node, name, dimension, Range::Positive);
     }
     let fields = c.block(node, &format!("`{name}`"), schema::SERIES.blocks[0])?;
+    // Times or frequencies, as the field wants that holds them.
     let end = |key: &str| {
         fields.required(c, key).and_then(|n| c.ranged(n, key, dimension, Range::Positive))
     };
     let (from, to) = (end("from"), end("to"));
-    let count = fields.get("count").map_or(Some(100), |n| c.count(n, "count", 2));
+    let count = fields.count(c, "count");
     let (from, to, count) = (from?, to?, count?);
     if to <= from || count > 10_000 {
         let message = format!("`{name}`: `to` must be above `from`, and `count` at most 10000");

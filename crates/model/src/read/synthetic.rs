@@ -1,6 +1,6 @@
 //! Synthetic motions.
 
-use super::accelerogram::{optional, table_of};
+use super::accelerogram::table_of;
 use super::context::Context;
 use super::functions::{Made, what};
 use super::tables::after_end;
@@ -8,8 +8,8 @@ use crate::AfterEnd;
 use crate::schema;
 use crate::tree::{Entry, Node};
 use std::collections::HashSet;
-use trilith_element::dimension::{ACCELERATION, FREQUENCY, NONE, TIME};
-use trilith_element::{Dimension, Range};
+use trilith_element::Range;
+use trilith_element::dimension::{ACCELERATION, TIME};
 use trilith_record::MOST_SAMPLES;
 use trilith_record::synthetic::{Compatible, Envelope, KanaiTajimi, Target};
 
@@ -88,21 +88,16 @@ pub(super) fn synthetic(c: &Context<'_>, e: &Entry) -> Option<Made> {
 fn described(c: &Context<'_>, e: &Entry) -> Option<Synthetic> {
     let fields = c.block(&e.value, &what(e), &schema::SYNTHETIC)?;
     let plain = KanaiTajimi::default();
-    let seed = fields.required(c, "seed").and_then(|n| c.count(n, "seed", 0));
-    let or = |key: &str, d: Dimension, default: f64| {
-        optional(c, &fields, key, d, Range::Positive).map(|x| x.unwrap_or(default))
-    };
-    let (duration, dt) = (or("duration", TIME, plain.duration), or("dt", TIME, plain.dt));
-    let frequency = or("frequency", FREQUENCY, plain.frequency);
-    let damping = or("damping", NONE, plain.damping);
-    let highpass = or("highpass", FREQUENCY, plain.highpass);
-    let highpass_damping = or("highpass_damping", NONE, plain.highpass_damping);
-    let envelope = fields
-        .get("envelope")
-        .map_or(Some(plain.envelope), |n| envelope(c, n, &what(e), plain.envelope));
-    let after_end = after_end(c, &fields, 1);
-    let spectrum_damping = or("spectrum_damping", NONE, 0.05);
-    let scale = fields.get("scale").map_or(Some(1.0), |n| c.number(n, NONE));
+    let seed = fields.count(c, "seed");
+    let (duration, dt) = (fields.number(c, "duration"), fields.number(c, "dt"));
+    let (frequency, damping) = (fields.number(c, "frequency"), fields.number(c, "damping"));
+    let highpass = fields.number(c, "highpass");
+    let highpass_damping = fields.number(c, "highpass_damping");
+    let envelope =
+        fields.get("envelope").map_or(Some(plain.envelope), |n| envelope(c, n, &what(e)));
+    let after_end = after_end(c, &fields);
+    let spectrum_damping = fields.number(c, "spectrum_damping");
+    let scale = fields.number(c, "scale");
     let target = fields.get("spectrum").map_or(Some(None), |n| points(c, n).map(Some));
     let peak = match (fields.get("peak"), fields.get("spectrum")) {
         (Some(n), Some(_)) => {
@@ -112,9 +107,7 @@ fn described(c: &Context<'_>, e: &Entry) -> Option<Synthetic> {
             None
         }
         (None, Some(_)) => Some(plain.peak),
-        (_, None) => fields
-            .required(c, "peak")
-            .and_then(|n| c.ranged(n, "peak", ACCELERATION, Range::Positive)),
+        (_, None) => fields.number(c, "peak"),
     };
     let start = KanaiTajimi {
         frequency: frequency?,
@@ -150,26 +143,19 @@ fn points(c: &Context<'_>, list: &Node) -> Option<Vec<(f64, f64)>> {
 }
 
 /// `Jennings(rise: …, strong: …, decay: …)`, `SaragoniHart(peak_at: …, end: …)` or `Stationary`.
-fn envelope(c: &Context<'_>, node: &Node, what: &str, plain: Envelope) -> Option<Envelope> {
+fn envelope(c: &Context<'_>, node: &Node, what: &str) -> Option<Envelope> {
     let what = format!("the envelope of {what}");
     let kind = c.one_of(node, "envelope", &schema::ENVELOPE)?;
     let fields = c.block(node, &what, kind)?;
     match kind.name {
         "Stationary" => Some(Envelope::Stationary),
         "Jennings" => {
-            let number = |key: &str, d| {
-                fields.required(c, key).and_then(|n| c.ranged(n, key, d, Range::Positive))
-            };
-            let (rise, strong) = (number("rise", TIME), number("strong", TIME));
-            let decay = number("decay", NONE / TIME);
+            let (rise, strong) = (fields.number(c, "rise"), fields.number(c, "strong"));
+            let decay = fields.number(c, "decay");
             Some(Envelope::Jennings { rise: rise?, strong: strong?, decay: decay? })
         }
         _ => {
-            let Envelope::SaragoniHart { peak_at, end } = plain else { return Some(plain) };
-            let share = |key: &str, default: f64| {
-                optional(c, &fields, key, NONE, Range::Positive).map(|x| x.unwrap_or(default))
-            };
-            let (peak_at, end) = (share("peak_at", peak_at), share("end", end));
+            let (peak_at, end) = (fields.number(c, "peak_at"), fields.number(c, "end"));
             Some(Envelope::SaragoniHart { peak_at: peak_at?, end: end? })
         }
     }

@@ -11,18 +11,14 @@ use trilith_element::Dimension;
 use trilith_element::dimension::{NONE, TIME};
 
 fn style(c: &Context<'_>, fields: &Fields<'_>) -> Option<(Interpolation, AfterEnd)> {
-    let interpolation = fields
-        .get("interpolation")
-        .map_or(Some(0), |n| c.choice(n, "interpolation", &schema::INTERPOLATIONS));
-    let after = after_end(c, fields, 0);
+    let interpolation = fields.choice(c, "interpolation", "interpolation");
+    let after = after_end(c, fields);
     Some(([Interpolation::Linear, Interpolation::Cubic][interpolation?], after?))
 }
 
-/// What holds after the end; `default` counts in `Error, Zero, Hold`.
-pub(super) fn after_end(c: &Context<'_>, fields: &Fields<'_>, default: usize) -> Option<AfterEnd> {
-    let after = fields
-        .get("after_end")
-        .map_or(Some(default), |n| c.choice(n, "end of a table", &schema::AFTER_END));
+/// What holds after the end.
+pub(super) fn after_end(c: &Context<'_>, fields: &Fields<'_>) -> Option<AfterEnd> {
+    let after = fields.choice(c, "after_end", "end of a table");
     Some([AfterEnd::Error, AfterEnd::Zero, AfterEnd::Hold][after?])
 }
 
@@ -31,7 +27,7 @@ pub(super) fn table(c: &Context<'_>, e: &Entry) -> Option<Made> {
     let style = style(c, &fields);
     let scale = fields.get("scale").map_or(Some(None), |n| c.quantity(n).map(Some));
     let unit = fields.get("unit").map_or(Some(None), |n| unit(c, n).map(Some));
-    let skip = fields.get("skip").map_or(Some(0), |n| c.count(n, "skip", 0));
+    let skip = fields.count(c, "skip");
     let (times, values) =
         (column(c, fields.get("time"), "time", 0), column(c, fields.get("value"), "value", 1));
     let file = fields.required(c, "file")?;

@@ -2,6 +2,7 @@
 
 use super::Takes::{Choice, Count, Flag, List, Name, Number, One, Quantity};
 use super::{Block, Field, Group, absent, needed, plain};
+use crate::check::TOLERANCE as SHARE;
 use trilith_element::Range::{Any, Positive, Within};
 use trilith_element::dimension as d;
 
@@ -13,7 +14,6 @@ pub static BASE_DIRECTIONS: [&str; 6] = ["X", "Y", "Z", "Ux", "Uy", "Uz"];
 pub static SOLVERS: [&str; 4] = ["Fna", "Hht", "RitzHht", "FullNewton"];
 /// Ways to solve the link equations.
 pub static KERNELS: [&str; 2] = ["Newton", "FixedPoint"];
-const SHARE: trilith_element::Range = trilith_element::Range::Above(0.0, 1.0 - f64::EPSILON);
 
 /// Own weight.
 pub static GRAVITY: Block = Block {

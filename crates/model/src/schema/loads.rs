@@ -96,7 +96,7 @@ pub static TEMPERATURE: Block = Block {
     ],
 };
 /// 1/m.
-pub(crate) const PER_LENGTH: trilith_element::Dimension =
+const PER_LENGTH: trilith_element::Dimension =
     trilith_element::Dimension { mass: 0.0, length: -1.0, time: 0.0 };
 
 /// What a load pattern holds.

@@ -1,7 +1,7 @@
 //! What a model file may hold beside the parameters of elements: blocks, their fields, defaults.
 //!
-//! The reader takes the names of fields and choices from here, so a field that is not here is refused in
-//! a file; the reference of the guide is written from here.
+//! The reader takes from here which fields there are, what each takes and what holds without it, so a field that is not
+//! here is refused in a file; the reference of the guide is written from here.
 
 mod cases;
 mod combinations;
@@ -25,7 +25,6 @@ pub use functions::{
     AFTER_END, CONSTANT, COSINE, FUNCTIONS, HALF_SINE, INTERPOLATIONS, POINTS, RAMP, RICKER,
     SCALED, SINE, STEP, TABLE,
 };
-pub(crate) use loads::PER_LENGTH;
 pub use loads::{FORCE, LOADINGS, POINT, TEMPERATURE, TRAPEZOID, UNIFORM};
 pub use many::{AS_IT_STANDS, GROUP_KINDS, INCLUDED, REPETITION};
 pub(crate) use members::is_member;

@@ -5,15 +5,14 @@ use super::{
     Block, CASES, COMBINATIONS, ENVELOPES, FUNCTIONS, Field, Group, OUTPUTS, SPECTRA, absent,
     needed, plain,
 };
-use trilith_element::Range::{NonNegative, Positive, Within};
+use crate::check::RATIO;
+use trilith_element::Range::{NonNegative, Positive};
 use trilith_element::dimension as d;
 
 /// Coordinate planes.
 pub static PLANES: [&str; 3] = ["XZ", "YZ", "XY"];
 /// Words for whole supports.
 pub static SUPPORTS: [&str; 2] = ["Fixed", "Pinned"];
-/// Damping ratios that are taken.
-const RATIO: trilith_element::Range = Within(0.0, 0.999);
 
 /// A model file.
 pub static MODEL: Group = Group {

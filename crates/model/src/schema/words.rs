@@ -47,7 +47,6 @@ impl Default {
 
 fn bounds(range: Range) -> String {
     match range {
-        Range::Above(a, b) if (b - 1.0).abs() < 1e-9 && a == 0.0 => "> 0 and < 1".into(),
         Range::Within(a, b) if (a + 1.0 / 3.0).abs() < 1e-9 => format!("−1/3 … {b}"),
         range => range.text(),
     }

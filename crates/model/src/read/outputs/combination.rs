@@ -14,7 +14,7 @@ pub(super) fn combination(
     reading: &Reading<'_, '_>,
     node: &Node,
     what: &str,
-    kind: &Block,
+    kind: &'static Block,
 ) -> Option<(Quantity, String)> {
     let c = reading.c;
     let how = Combine::ALL[Combine::NAMES.iter().position(|n| *n == kind.name)?];

@@ -6,7 +6,7 @@ use super::super::groups::several;
 use super::super::motion::unit;
 use super::super::names::Names;
 use super::Reading;
-use crate::schema::{self, Block};
+use crate::schema::Block;
 use crate::tree::Node;
 use crate::{Body, LinkTerm, MemberForce, Quantity, Span};
 use trilith_element::dimension::{FORCE, LENGTH, MOMENT, NONE};
@@ -54,7 +54,7 @@ impl Reading<'_, '_> {
         &self,
         node: &Node,
         what: &str,
-        kind: &Block,
+        kind: &'static Block,
         force: bool,
     ) -> Option<(Quantity, String)> {
         let c = self.c;
@@ -169,7 +169,7 @@ impl Reading<'_, '_> {
         &self,
         node: &Node,
         what: &str,
-        kind: &Block,
+        kind: &'static Block,
     ) -> Option<(Quantity, String)> {
         let c = self.c;
         let fields = c.block(node, what, kind)?;
@@ -177,9 +177,7 @@ impl Reading<'_, '_> {
             self.check_single(n, self.names)?;
             self.of.members.find(c, self.names.refer(c, n)?, &n.span)
         });
-        let force = fields
-            .required(c, "force")
-            .and_then(|n| c.choice(n, "force", &schema::FORCES).map(|i| MemberForce::ALL[i]));
+        let force = fields.choice(c, "force", "force").map(|i| MemberForce::ALL[i]);
         let at = fields.required(c, "at");
         let factor = self.factor(&fields);
         let member = member?;
@@ -195,7 +193,7 @@ impl Reading<'_, '_> {
         &self,
         node: &Node,
         what: &str,
-        kind: &Block,
+        kind: &'static Block,
     ) -> Option<(Quantity, String)> {
         let c = self.c;
         let fields = c.block(node, what, kind)?;

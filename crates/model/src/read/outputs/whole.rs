@@ -4,7 +4,7 @@ use super::super::context::Fields;
 use super::super::groups::several;
 use super::super::motion::unit;
 use super::Reading;
-use crate::schema::{self, Block};
+use crate::schema::Block;
 use crate::tree::Node;
 use crate::{Body, NodalTerm, Quantity, Span};
 use trilith_element::Dof;
@@ -13,16 +13,14 @@ use trilith_element::dimension::{FORCE, LENGTH, MOMENT, NONE};
 impl Reading<'_, '_> {
     /// X or Y.
     fn horizontal(&self, fields: &Fields<'_>) -> Option<Dof> {
-        let c = self.c;
-        let node = fields.required(c, "direction")?;
-        c.choice(node, "direction", &schema::SIDEWAYS).map(|i| Dof::ALL[i])
+        fields.choice(self.c, "direction", "direction").map(|i| Dof::ALL[i])
     }
 
     pub(super) fn base_shear(
         &self,
         node: &Node,
         what: &str,
-        kind: &Block,
+        kind: &'static Block,
     ) -> Option<(Quantity, String)> {
         let fields = self.c.block(node, what, kind)?;
         let direction = self.horizontal(&fields)?;
@@ -33,7 +31,7 @@ impl Reading<'_, '_> {
         &self,
         node: &Node,
         what: &str,
-        kind: &Block,
+        kind: &'static Block,
     ) -> Option<(Quantity, String)> {
         let c = self.c;
         let fields = c.block(node, what, kind)?;
@@ -51,11 +49,11 @@ impl Reading<'_, '_> {
         &self,
         node: &Node,
         what: &str,
-        kind: &Block,
+        kind: &'static Block,
     ) -> Option<(Quantity, String)> {
         let c = self.c;
         let fields = c.block(node, what, kind)?;
-        let dof = fields.required(c, "dof").and_then(|n| c.choice(n, "direction", &schema::ACROSS));
+        let dof = fields.choice(c, "dof", "direction");
         let of = fields.required(c, "of")?;
         let ends = of.items();
         let [lower, upper] = ends[..] else {
@@ -88,7 +86,7 @@ impl Reading<'_, '_> {
         &self,
         node: &Node,
         what: &str,
-        kind: &Block,
+        kind: &'static Block,
     ) -> Option<(Quantity, String)> {
         let c = self.c;
         let fields = c.block(node, what, kind)?;

@@ -166,3 +166,27 @@ fn motions_that_are_kept_are_those_of_their_parameters() {
     std::fs::remove_dir_all(&folder).unwrap();
     assert!(read(&[]).iter().zip(&plain).all(|(a, b)| a.function == b.function));
 }
+
+/// What a file leaves out is what code leaves out.
+#[test]
+fn defaults_of_files_are_those_of_code() {
+    let dynamic = |solution: &str| {
+        let text = small("").replace(
+            "Static(loads: [Gravity])",
+            &format!("Dynamic(duration: 1, dt: 0.1{solution})"),
+        );
+        let Analysis::Dynamic(run) = model(&text).cases.remove(0).analysis else {
+            panic!("{text}")
+        };
+        run.solution
+    };
+    assert_eq!(dynamic(""), Solution::default());
+    let explicit = ", step: Adaptive, basis: Ritz";
+    assert_eq!(dynamic(explicit), Solution::default());
+    let motion = model(&small("functions: { \"s\": Synthetic(seed: 3, peak: 1) },"));
+    let plain = trilith_record::synthetic::KanaiTajimi { seed: 3, peak: 1.0, ..Default::default() };
+    let table = motion.functions[0].function.table().unwrap();
+    assert_eq!(table.values(), plain.make().unwrap().acceleration);
+    let complete = Basis { kind: BasisKind::Complete, ..Basis::default() };
+    assert_eq!(dynamic(", basis: Complete").basis, complete);
+}
