@@ -11,6 +11,12 @@ static HEARD: AtomicBool = AtomicBool::new(false);
 /// Exit status of what was interrupted, as shells have it for Ctrl-C.
 pub(crate) const INTERRUPTED: i32 = 130;
 
+/// Whether somebody wants an end.
+#[must_use]
+pub(crate) fn is_wanted() -> bool {
+    WANTED.load(Ordering::SeqCst)
+}
+
 /// While it lives, the first signal sets a flag instead of ending the program.
 pub(crate) struct Ear;
 
@@ -33,6 +39,12 @@ impl Ear {
     #[must_use]
     pub(crate) fn flag(&self) -> &'static AtomicBool {
         &WANTED
+    }
+
+    /// Whether an end is wanted.
+    #[must_use]
+    pub(crate) fn is_wanted(&self) -> bool {
+        is_wanted()
     }
 }
 

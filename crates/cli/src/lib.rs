@@ -67,6 +67,7 @@ use trilith::model::{ModelText, file};
 use trilith::{Model, Registry, SolverKind};
 
 /// What a command prints, and the exit status.
+#[derive(Default)]
 struct Answer {
     text: String,
     status: i32,
@@ -92,7 +93,7 @@ pub fn main_of(registry: Registry, arguments: impl IntoIterator<Item = OsString>
     let Arguments { command, laws } = arguments;
     let registry = vectors::check().and_then(|()| laws::taken(registry, laws));
     let answer = registry.and_then(|registry| match command {
-        Command::Run(a) => run::run(&registry, a),
+        Command::Run(a) => run::run(&registry, a, None).map(Option::unwrap_or_default),
         Command::Watch(a) => watch::watch(&registry, &a),
         Command::Check(a) => check::check(&registry, &a),
         Command::Modes(a) => modes::modes(&registry, &a),

@@ -9,6 +9,7 @@ use crate::{
     made_by, names, output, path, place, read, solver,
 };
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 use trilith::model::{Body, Element};
 use trilith::record::design::DesignSpectrum;
 use trilith::report::{RunData, Sections};
@@ -20,7 +21,13 @@ use trilith::{Analysis, Checkpoint, Model, Registry, Run, RunOptions};
 const FRAMES: usize = 200;
 const CHECKPOINT: &str = "checkpoint.json";
 
-pub(crate) fn run(registry: &Registry, args: RunArguments) -> Result<Answer, Failure> {
+/// `stale`: what becomes true once nobody wants the run any more, by whom interrupts have to be heard as well; nothing is
+/// written then, and there is no answer.
+pub(crate) fn run(
+    registry: &Registry,
+    args: RunArguments,
+    stale: Option<&AtomicBool>,
+) -> Result<Option<Answer>, Failure> {
     let model = read(registry, &args.model)?;
     let case = case(&model, args.case.as_deref())?;
     let solver = args.solver.as_deref().map(|name| solver(&model, case, name)).transpose()?;
@@ -64,7 +71,7 @@ pub(crate) fn run(registry: &Registry, args: RunArguments) -> Result<Answer, Fai
             step_errors: true,
             from: from.map(|checkpoint| checkpoint.state),
             progress: Some(&mut show),
-            interrupt: Some(ear.flag()),
+            interrupt: Some(stale.unwrap_or(ear.flag())),
         };
         let mut analysis = Analysis::new(&model).map_err(|e| Failure::of(&e, &model))?;
         if args.no_files {
@@ -76,6 +83,9 @@ pub(crate) fn run(registry: &Registry, args: RunArguments) -> Result<Answer, Fai
             }
         }
         let mut run = analysis.run(options).map_err(|e| Failure::of(&e, &model))?;
+        if stale.is_some_and(|stale| stale.load(Ordering::SeqCst)) && !ear.is_wanted() {
+            return Ok(None);
+        }
         run.result.warnings.extend(other_build);
         (analysis, run)
     };
@@ -100,7 +110,7 @@ pub(crate) fn run(registry: &Registry, args: RunArguments) -> Result<Answer, Fai
         // What was found is on the screen all the same.
         Err(failure) => {
             output::tell(&failure.text);
-            return Ok(Answer { text, status: failure.status });
+            return Ok(Some(Answer { text, status: failure.status }));
         }
     }
     let status = match &run.result.status {
@@ -110,7 +120,7 @@ pub(crate) fn run(registry: &Registry, args: RunArguments) -> Result<Answer, Fai
             if matches!(status, Status::Interrupted { .. }) { INTERRUPTED } else { 1 }
         }
     };
-    Ok(Answer { text, status })
+    Ok(Some(Answer { text, status }))
 }
 
 /// Takes the folder of the results.

@@ -5,10 +5,12 @@
 //! itself again when there is something newer, and shows the error where there is one. No server, no network.
 
 use crate::args::{RunArguments, WatchArguments};
-use crate::interrupt::INTERRUPTED;
+use crate::interrupt::{self, INTERRUPTED};
 use crate::text::shown;
 use crate::{Answer, Failure, browser, output, path, read, run};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::Thread;
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 use trilith::Registry;
 
@@ -51,7 +53,11 @@ pub(crate) fn watch(registry: &Registry, args: &WatchArguments) -> Result<Answer
                 before = stamps(&files);
             }
         }
-        let failure = once(registry, of)?;
+        let Some(failure) = unless_saved(&files, &before, |stale| once(registry, of, stale))?
+        else {
+            output::tell("saved while it ran: it begins again\n");
+            continue;
+        };
         let tick = tick(&folder, failure.as_deref())?;
         let page = folder.join("report.html");
         if !opened && page.is_file() {
@@ -75,24 +81,55 @@ pub(crate) fn watch(registry: &Registry, args: &WatchArguments) -> Result<Answer
     }
 }
 
-/// One run, told as `trilith run` tells it; what is wrong where something is.
+/// Does something, for which a flag becomes true as soon as one of the files is another than before, or somebody wants an
+/// end.
+fn unless_saved<T>(files: &[PathBuf], before: &[Stamp], work: impl FnOnce(&AtomicBool) -> T) -> T {
+    /// Ends the looking, however the work has ended.
+    struct Over<'a>(&'a AtomicBool, Thread);
+    impl Drop for Over<'_> {
+        fn drop(&mut self) {
+            self.0.store(true, Ordering::SeqCst);
+            self.1.unpark();
+        }
+    }
+    let (stale, over) = (AtomicBool::new(false), AtomicBool::new(false));
+    std::thread::scope(|scope| {
+        let look = scope.spawn(|| {
+            while !over.load(Ordering::SeqCst) {
+                if interrupt::is_wanted() || stamps(files) != before {
+                    stale.store(true, Ordering::SeqCst);
+                }
+                std::thread::park_timeout(LOOK);
+            }
+        });
+        let _over = Over(&over, look.thread().clone());
+        work(&stale)
+    })
+}
+
+/// One run, told as `trilith run` tells it, with what is wrong where something is; none where it became stale.
 ///
 /// # Errors
 /// Somebody wants an end.
-fn once(registry: &Registry, of: &RunArguments) -> Result<Option<String>, Failure> {
-    match run::run(registry, RunArguments { open: false, ..of.clone() }) {
-        Ok(Answer { text, status }) if status == INTERRUPTED => {
+fn once(
+    registry: &Registry,
+    of: &RunArguments,
+    stale: &AtomicBool,
+) -> Result<Option<Option<String>>, Failure> {
+    match run::run(registry, RunArguments { open: false, ..of.clone() }, Some(stale)) {
+        Ok(None) => Ok(None),
+        Ok(Some(Answer { text, status })) if status == INTERRUPTED => {
             output::print(&text, status);
             Err(Failure { text: String::new(), status })
         }
-        Ok(Answer { text, status }) => {
+        Ok(Some(Answer { text, status })) => {
             output::print(&text, status);
-            Ok(None)
+            Ok(Some(None))
         }
         Err(failure) if failure.status == INTERRUPTED => Err(failure),
         Err(failure) => {
             output::tell(&failure.text);
-            Ok(Some(failure.text))
+            Ok(Some(Some(failure.text)))
         }
     }
 }

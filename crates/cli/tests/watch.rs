@@ -88,6 +88,25 @@ fn a_saved_model_is_run_again_and_a_wrong_one_is_told() {
     assert_eq!(watch.slide().to_bits(), before.to_bits());
 }
 
+/// Whoever saves a model does not wait for the end of the run that it had.
+#[test]
+fn a_run_whose_model_is_saved_meanwhile_is_given_up() {
+    // Some eight million output steps.
+    let text = block();
+    let long = text.replace("dt: \"1 ms\"", "dt: \"0.0005 ms\"");
+    assert_ne!(text, long);
+    let watch = Watch::new(&long);
+    std::thread::sleep(Duration::from_secs(2));
+    assert!(!watch.file("seen.watch.js").exists(), "the long run is still going on");
+    watch.save(&text);
+    let told = watch.told("");
+    assert!(told.ends_with(", null);\n"), "{told}");
+    let text = std::fs::read_to_string(watch.file("seen/summary.json")).unwrap();
+    let summary: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let steps = summary["work"]["steps"].as_u64().unwrap();
+    assert!(steps < 100_000, "what is told first is the short run: {steps} steps");
+}
+
 #[test]
 fn a_page_follows_and_keeps_what_was_chosen() {
     if Command::new("node").arg("--version").output().is_err() {

@@ -69,7 +69,9 @@ impl Files<'_> {
         let mut written: Vec<PathBuf> = files.iter().map(|(name, _)| dir.join(name)).collect();
         let mut done: Vec<Result<(), FileError>> = written.iter().map(|_| Ok(())).collect();
         let works = files.into_iter().map(|(_, work)| work);
-        let pieces = works.zip(&written).zip(&mut done).collect();
+        let mut pieces: Vec<_> = works.zip(&written).zip(&mut done).collect();
+        // The longest are last among the names, and are begun first.
+        pieces.reverse();
         share(TO_WRITE * self.numbers(), pieces, |((work, path), done)| *done = work(path));
         done.into_iter().collect::<Result<(), _>>()?;
         // Last, so that a summary stands for a complete folder.
