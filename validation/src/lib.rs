@@ -13,6 +13,7 @@ mod page;
 pub mod report;
 pub mod studies;
 pub mod study;
+mod topic;
 mod trace;
 pub mod unit;
 

@@ -2,23 +2,32 @@
 
 use crate::Outcome;
 use crate::report::{HEADER, lines, notes, totals};
+use crate::topic::{by_topic, summary, topic};
 use trilith_report::{Block, Page, Section};
 
 pub(crate) fn html(outcomes: &[Outcome]) -> String {
+    let [topics, references] = summary(outcomes);
     let mut page = Page::new("Validation of Trilith")
         .lead(Block::text(format!("{}.", totals(outcomes))))
+        .lead(topics)
+        .lead(references)
+        .lead(Block::note(
+            "Half and 95 % of the comparisons that are told as a share of the reference are within these shares; the \
+             others are told in their own units, or are bounds. Each has a tolerance of its own, which stands beside it.",
+        ))
         .lead(Block::note(
             "Dark dashes and rings: reference. The error is the larger one of the solvers; %: of the \
              reference, otherwise in the unit of the quantity. Frequencies stand under FNA: they are \
              those of its basis.",
         ));
-    for o in outcomes {
+    for o in by_topic(outcomes) {
         let verdict = match () {
             () if o.pass() => "",
             () if o.fails() => " — FAILS",
             () => " — not run",
         };
         let mut section = Section::new(o.id, format!("{} {}{verdict}", o.id, o.title))
+            .group(topic(o.id))
             .block(Block::note(format!("Source: {}", o.source)));
         for text in &o.text {
             section = section.block(Block::text(text.clone()));

@@ -7,6 +7,9 @@ use trilith_model::visible;
 
 pub(crate) const STYLE: &str = concat!(include_str!("page.css"), include_str!("chart/chart.css"));
 
+/// Contents of more sections than this show the heads of their groups, and the sections on a click.
+const FOLDED: usize = 60;
+
 /// A part of a section.
 #[derive(Clone, Debug)]
 pub enum Block {
@@ -196,6 +199,28 @@ impl Page {
         self
     }
 
+    /// Where the sections are, under the heads of their groups; folded beneath them where they are many.
+    fn contents(&self) -> Markup {
+        let folded = self.sections.len() > FOLDED;
+        let groups = self.sections.chunk_by(|a, b| a.group == b.group);
+        let entry = |s: &Section| html! { li { a href={ "#" (s.id) } { (s.title) } } };
+        html! {
+            @if folded && self.sections.iter().all(|s| !s.group.is_empty()) {
+                @for group in groups {
+                    details {
+                        summary { (group[0].group) " (" (group.len()) ")" }
+                        ol { @for s in group { (entry(s)) } }
+                    }
+                }
+            } @else {
+                ol { @for group in groups {
+                    @if !group[0].group.is_empty() { li.group { (group[0].group) } }
+                    @for s in group { (entry(s)) }
+                } }
+            }
+        }
+    }
+
     /// The page as one HTML document: no script, no font and no picture from elsewhere. Figures can be read, zoomed and
     /// switched where scripts run, and are still pictures elsewhere and on paper. Control characters of texts are
     /// written out.
@@ -222,12 +247,7 @@ impl Page {
                         h1 { (self.title) }
                         @for block in &self.lead { (block.markup(fine, scales)) }
                         @if self.sections.len() > 1 {
-                            nav aria-label="Contents" { ol { @for (i, s) in self.sections.iter().enumerate() {
-                                @if !s.group.is_empty() && (i == 0 || self.sections[i - 1].group != s.group) {
-                                    li.group { (s.group) }
-                                }
-                                li { a href={ "#" (s.id) } { (s.title) } }
-                            } } }
+                            nav aria-label="Contents" { (self.contents()) }
                         }
                         @for s in &self.sections {
                             section id=(s.id) {
