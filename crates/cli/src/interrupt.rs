@@ -40,12 +40,6 @@ impl Ear {
     pub(crate) fn flag(&self) -> &'static AtomicBool {
         &WANTED
     }
-
-    /// Whether an end is wanted.
-    #[must_use]
-    pub(crate) fn is_wanted(&self) -> bool {
-        is_wanted()
-    }
 }
 
 impl Drop for Ear {

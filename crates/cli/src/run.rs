@@ -1,7 +1,7 @@
 //! `trilith run`.
 
 use crate::args::{ModelArguments, ReportArguments, RunArguments};
-use crate::interrupt::{Ear, INTERRUPTED};
+use crate::interrupt::{Ear, INTERRUPTED, is_wanted};
 use crate::progress::Progress;
 use crate::text::{exact, shown};
 use crate::{
@@ -83,7 +83,7 @@ pub(crate) fn run(
             }
         }
         let mut run = analysis.run(options).map_err(|e| Failure::of(&e, &model))?;
-        if stale.is_some_and(|stale| stale.load(Ordering::SeqCst)) && !ear.is_wanted() {
+        if stale.is_some_and(|stale| stale.load(Ordering::SeqCst)) && !is_wanted() {
             return Ok(None);
         }
         run.result.warnings.extend(other_build);

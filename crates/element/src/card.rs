@@ -383,9 +383,9 @@ impl Range {
             Self::Any => "any finite number".into(),
             Self::Positive => "> 0".into(),
             Self::NonNegative => "≥ 0".into(),
+            // The numbers beside 0 and 1, which are not included themselves.
+            Self::Within(f64::MIN_POSITIVE, b) if b == 1.0 - f64::EPSILON => "> 0 and < 1".into(),
             Self::Within(a, b) => format!("between {a} and {b}"),
-            // The number before 1: up to 1, which is not included.
-            Self::Above(a, b) if b == 1.0 - f64::EPSILON => format!("> {a} and < 1"),
             Self::Above(a, b) => format!("> {a} and ≤ {b}"),
         }
     }

@@ -8,7 +8,7 @@ use crate::{
 use trilith_element::{Dof, Range};
 
 /// A tolerance: above zero, below one.
-pub(crate) const TOLERANCE: Range = Range::Above(0.0, 1.0 - f64::EPSILON);
+pub(crate) const TOLERANCE: Range = Range::Within(f64::MIN_POSITIVE, 1.0 - f64::EPSILON);
 
 /// Least α of HHT: −1/3, rounding apart.
 pub(crate) const LEAST_ALPHA: f64 = -1.0 / 3.0 - 1e-12;

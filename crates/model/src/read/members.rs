@@ -2,7 +2,7 @@
 
 use super::context::{Context, Fields};
 use crate::diagnostic::{closest, names_help};
-use crate::schema::{self};
+use crate::schema;
 use crate::sections::{self, Section, Shape};
 use crate::tree::{Entry, Kind, Node};
 use trilith_element::Card;

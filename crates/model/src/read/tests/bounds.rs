@@ -25,6 +25,22 @@ fn coordinates_whose_squares_overflow_are_refused_where_they_stand() {
     assert_eq!(places, ["1e300", "1e200"]);
 }
 
+/// Whose reciprocal is no number, it is no tolerance.
+#[test]
+fn tolerances_lie_between_zero_and_one() {
+    let case = |x: &str| {
+        let dynamic = format!("Dynamic(duration: 1, dt: 0.1, link_tolerance: {x})");
+        small("").replace("Static(loads: [Gravity])", &dynamic)
+    };
+    for x in ["0", "1e-310", "1", "-1"] {
+        only(&case(x), "E0112", "`link_tolerance`", x);
+        only(&case(x), "E0112", "must be > 0 and < 1", x);
+    }
+    for x in ["1e-300", "0.999"] {
+        model(&case(x));
+    }
+}
+
 #[test]
 fn a_lever_of_a_link_is_bounded_as_well() {
     let slider = |at: &str| {
