@@ -18,6 +18,8 @@ const VIEWS = [
 ];
 /** Pages may weigh so much without their histories, bytes. */
 const HEAVIEST = Number(process.env.HEAVIEST ?? 3e6);
+/** Pictures with WebGL and without may be so far apart: edges are smoothed in two ways. */
+const APART = 4;
 /** Pictures are so tall at most, px: of long pages there are several. */
 const TALLEST = 2000;
 
@@ -90,12 +92,13 @@ const USE = `(async () => {
 })()`;
 
 /** Turns, searches, hides, moves, colours and saves the model. */
-const MODEL = `(async () => {
+const MODEL = (drawn) => `(async () => {
   const stage = document.getElementById("stage"), said = [], root = document.documentElement;
   if (!stage) return said;
   const wait = () => new Promise(requestAnimationFrame);
-  const seen = async () => { await wait(); return stage.toDataURL(); };
-  if (root.dataset.solid !== "true") said.push("the model is not drawn in three dimensions");
+  // A large one is drawn finely when it has come to rest.
+  const seen = async () => { do await wait(); while (stage.dataset.fine === "false"); return stage.toDataURL(); };
+  if (!${drawn}.includes(root.dataset.solid)) said.push("the model is drawn by " + root.dataset.solid);
   stage.scrollIntoView({ block: "center" });
   const data = JSON.parse(document.getElementById("data").textContent);
   const player = document.getElementById("player"), finder = document.getElementById("finder");
@@ -167,21 +170,50 @@ const MODEL = `(async () => {
   HTMLAnchorElement.prototype.click = click;
   return said;
 })()`;
-/** Without WebGL the model is drawn flat. */
+/** Without WebGL the page draws the model itself. */
 const NO_WEBGL = `{
   const get = HTMLCanvasElement.prototype.getContext;
   HTMLCanvasElement.prototype.getContext = function (kind, ...rest) { return kind === "webgl2" ? null : get.call(this, kind, ...rest); };
 }`;
-const FLAT = `(() => {
-  const stage = document.getElementById("stage");
-  if (!stage) return [];
-  const { data } = stage.getContext("2d").getImageData(0, 0, stage.width, stage.height);
-  // Of members, bodies or links: what is not drawn in a colour is the ground.
-  let coloured = 0;
-  for (let i = 0; i < data.length; i += 4) if (Math.max(...data.slice(i, i + 3)) > Math.min(...data.slice(i, i + 3)) + 60) coloured++;
-  const said = coloured > 50 ? [] : ["without WebGL the model is not drawn"];
-  return document.documentElement.dataset.solid === "false" ? said : [...said, "takes WebGL where there is none"];
+/** Its pictures at rest, and in the middle of its motion in each colouring: red, green and blue of squares of four by four pixels. */
+const SHOWN = `(async () => {
+  const stage = document.getElementById("stage"), player = document.getElementById("player"), small = document.createElement("canvas"), out = [];
+  if (!stage) return out;
+  const c = small.getContext("2d", { willReadFrequently: true });
+  const take = async () => {
+    do await new Promise(requestAnimationFrame); while (stage.dataset.fine === "false");
+    [small.width, small.height] = [stage.width >> 2, stage.height >> 2];
+    c.drawImage(stage, 0, 0, small.width, small.height);
+    out.push([...c.getImageData(0, 0, small.width, small.height).data].filter((_, i) => i % 4 < 3));
+  };
+  player.querySelector('[data-view="space"]')?.click();
+  await take();
+  const scrub = player.querySelector("input[type=range]");
+  const move = (to) => { scrub.value = to; scrub.dispatchEvent(new Event("input")); };
+  const colours = [...player.querySelectorAll("label")].find((l) => l.textContent.startsWith("colours"))?.querySelector("select");
+  if (!scrub || !colours) return out;
+  move(500);
+  for (let i = colours.options.length - 1; i >= 0; i--) {
+    colours.selectedIndex = i;
+    colours.dispatchEvent(new Event("change"));
+    await take();
+  }
+  move(0);
+  return out;
 })()`;
+
+/** How far two pictures are apart where one of them shows something: the mean, of 255. */
+function apart(a, b) {
+  if (a.length !== b.length) return 255;
+  const paper = [a[0], a[1], a[2]];
+  let [sum, count] = [0, 0];
+  a.forEach((x, i) => {
+    if (x === paper[i % 3] && b[i] === paper[i % 3]) return;
+    sum += Math.abs(x - b[i]);
+    count++;
+  });
+  return count ? sum / count : 255;
+}
 
 /** Bytes of curves and of the motion, which are as long as a run. */
 function histories(html) {
@@ -205,7 +237,7 @@ async function look(path) {
   const { targetId } = await send("Target.createTarget", { url: "about:blank" });
   const { sessionId } = await send("Target.attachToTarget", { targetId, flatten: true });
   const on = (method, params) => send(method, params, sessionId);
-  let view = "", paint = null;
+  let view = "", paint = null, shown = [];
   const hear = ({ method, params, sessionId: of }) => {
     if (of !== sessionId) return;
     if (method === "Runtime.consoleAPICalled") complain(name, view, `console: ${params.args.map((a) => a.value ?? a.description).join(" ")}`);
@@ -232,7 +264,10 @@ async function look(path) {
     const seen = await value(LOOK);
     paint ??= await value("performance.getEntriesByName('first-contentful-paint')[0]?.startTime") ?? null;
     for (const what of seen?.said ?? []) complain(name, view, what);
-    if (view === "1280-light") for (const what of [...await value(USE), ...await value(MODEL)]) complain(name, view, what);
+    if (view === "1280-light") {
+      shown = await value(SHOWN);
+      for (const what of [...await value(USE), ...await value(MODEL('["webgl", "plain"]'))]) complain(name, view, what);
+    }
     if (!out) continue;
     for (let y = 0, i = 1; y < seen.height; y += TALLEST, i++) {
       const clip = { x: 0, y, width, height: Math.min(seen.height - y, TALLEST), scale: 1 };
@@ -240,7 +275,9 @@ async function look(path) {
       writeFileSync(join(out, `${name}-${view}-${String(i).padStart(2, "0")}.png`), Buffer.from(data, "base64"));
     }
   }
-  view = "flat";
+  view = "without WebGL";
+  await on("Emulation.setDeviceMetricsOverride", { width: 1280, height: 900, deviceScaleFactor: 1, mobile: false });
+  await on("Emulation.setEmulatedMedia", { media: "screen", features: [{ name: "prefers-color-scheme", value: "light" }] });
   const { identifier } = await on("Page.addScriptToEvaluateOnNewDocument", { source: NO_WEBGL });
   await on("Page.navigate", { url: pathToFileURL(resolve(path)).href });
   for (let i = 0; i < 200; i++) {
@@ -248,7 +285,11 @@ async function look(path) {
     await pause(25);
   }
   await value("new Promise(requestAnimationFrame)");
-  for (const what of await value(FLAT)) complain(name, view, what);
+  if (shown.length) {
+    const off = Math.max(...(await value(SHOWN)).map((picture, i) => apart(picture, shown[i] ?? [])));
+    if (!(off <= APART)) complain(name, view, `the model is drawn otherwise, by ${off.toFixed(1)} of 255`);
+    for (const what of await value(MODEL('["plain"]'))) complain(name, view, what);
+  }
   await on("Page.removeScriptToEvaluateOnNewDocument", { identifier });
   view = "print";
   await on("Emulation.setEmulatedMedia", { media: "", features: [] });

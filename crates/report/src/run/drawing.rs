@@ -274,9 +274,7 @@ pub(crate) fn symbol(family: Family, x: f64, y: f64) -> String {
         Family::Hysteretic => "M-7 5L-3 -5H7L3 5Z",
     };
     format!(
-        "<path data-family=\"{}\" transform=\"translate({x:.1} {y:.1})\" d=\"{d}\" fill=\"#fff\" fill-opacity=\".7\" \
-         stroke=\"#d55e00\" stroke-width=\"1.6\"/>\n",
-        format!("{family:?}").to_lowercase()
+        "<path transform=\"translate({x:.1} {y:.1})\" d=\"{d}\" fill=\"#fff\" fill-opacity=\".7\" stroke=\"#d55e00\" stroke-width=\"1.6\"/>\n"
     )
 }
 

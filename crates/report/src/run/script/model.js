@@ -35,9 +35,9 @@ const KINDS = (() => {
 
 /** Colours in light and dark, read once a drawing. The palette is of even steps in lightness as well, from little to much. */
 const SHADES = {
-  light: { paper: "#ffffff", ink: "#333333", blue: "#0072b2", face: "#0072b21f", link: "#d55e00", tie: "#999999", ghost: "#c9c9c9", ground: "#e9e9e9", edge: "#777777", found: "#aa003c",
+  light: { paper: "#ffffff", ink: "#333333", link: "#d55e00", tie: "#999999", ghost: "#c9c9c9", ground: "#e9e9e9", edge: "#777777", found: "#aa003c",
     solid: "#a9cde6", member: "#3b8fc4", contour: "#1f5f8b", support: "#6b7178", palette: ["#d8e219", "#7ad151", "#22a884", "#2a788e", "#414487", "#440154"] },
-  dark: { paper: "#16191d", ink: "#d5dadf", blue: "#4aa5e6", face: "#4aa5e62e", link: "#f2863a", tie: "#7c858e", ghost: "#454d55", ground: "#252a30", edge: "#98a0a8", found: "#ff7aa2",
+  dark: { paper: "#16191d", ink: "#d5dadf", link: "#f2863a", tie: "#7c858e", ghost: "#454d55", ground: "#252a30", edge: "#98a0a8", found: "#ff7aa2",
     solid: "#33658c", member: "#4aa5e6", contour: "#86bce8", support: "#98a0a8", palette: ["#46327e", "#365c8d", "#277f8e", "#1fa187", "#8fd744", "#fde725"] },
 };
 const darkness = window.matchMedia("(prefers-color-scheme: dark)");
@@ -72,11 +72,6 @@ function write(c, taken, text, x, y) {
 }
 
 const middleOf = (points) => [0, 1].map((i) => points.reduce((sum, p) => sum + p[i], 0) / points.length);
-
-/** Symbols as the key beneath the model draws them. */
-const SYMBOLS = Object.fromEntries(
-  [...document.querySelectorAll(".key path[data-family]")].map((p) => [p.dataset.family, new Path2D(p.getAttribute("d"))]),
-);
 
 /** A canvas as sharp as the screen; returns its context in CSS pixels. */
 function sharpen(canvas, width, height) {

@@ -116,11 +116,11 @@ function player(canvas, controls, tip) {
     });
   }
   controls.append(...views(stage));
-  if (solid) controls.append(...colours(stage, select, () => (moves ? most : 0)));
+  controls.append(...colours(stage, select, () => (moves ? most : 0)));
   stage.names = picture.nodes.length <= 40;
   controls.append(tick("names", stage.names, (on) => { stage.names = on; }));
   if (moves) controls.append(tick("at rest", stage.ghost, (on) => { stage.ghost = on; }));
-  if (solid && picture.outlines.length) controls.append(tick("sections", stage.sections, (on) => { stage.sections = on; }));
+  if (picture.outlines.length) controls.append(tick("sections", stage.sections, (on) => { stage.sections = on; }));
   turn(stage, tip);
   finder(stage, document.getElementById("finder"), films?.button);
   stage.draw();
@@ -129,7 +129,7 @@ function player(canvas, controls, tip) {
 /** Buttons for ways of looking: how it begins, along the axes, and of a plane model in space. */
 function views(stage) {
   const first = picture.plane ?? "space";
-  const words = picture.plane ? { [first]: "home", ...(solid && { space: "space" }) } : { space: "home", XY: "plan X–Y", XZ: "elevation X–Z", YZ: "elevation Y–Z" };
+  const words = picture.plane ? { [first]: "home", space: "space" } : { space: "home", XY: "plan X–Y", XZ: "elevation X–Z", YZ: "elevation Y–Z" };
   const keys = Object.entries(words).map(([view, text]) => {
     const key = make("button", { type: "button", "data-view": view, "aria-pressed": String(view === first) }, text);
     key.addEventListener("click", () => stage.look(view));

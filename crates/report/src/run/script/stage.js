@@ -1,4 +1,4 @@
-// A place where the model is drawn, in three dimensions where the browser can and flat elsewhere, with names, symbols and axes.
+// A place where the model is drawn in three dimensions, with names and axes.
 
 /** All of them. */
 const stages = new Set();
@@ -89,99 +89,20 @@ class Stage {
     this.fit();
     c.fillStyle = this.shade.paper;
     c.fillRect(0, 0, width, this.height);
-    if (solid) {
-      if (this.view !== "space") this.ground(c, (p) => this.pixel(p), width);
-      const [wide, high] = [this.canvas.width, this.canvas.height];
-      solid.draw(this, this.u, [wide, high]);
-      c.drawImage(solid.canvas, 0, solid.canvas.height - high, wide, high, 0, 0, width, this.height);
-    } else {
-      this.ground(c, (p) => this.pixel(p), width);
-      if (this.ghost) this.shape(c, this.pixels(null), true);
-      this.shape(c, this.at, false);
-      this.links(c);
-    }
+    if (this.view !== "space") this.ground(c, width);
+    solid.draw(this, this.u, [this.canvas.width, this.canvas.height], c);
     this.marks(c);
     if (this.view === "space") this.triad(c);
     this.tint?.legend(c, this);
   }
 
-  ground(c, pixel, width) {
+  /** A line, where the model is seen from the side. */
+  ground(c, width) {
     if (picture.ground === null || this.view === "XY") return;
-    const z = picture.ground;
-    const [right, up] = this.directions;
-    if (this.view !== "space") {
-      const y = pixel([0, z * up[2]])[1];
-      stroke(c, [[0, y], [width, y]], this.shade.edge);
-      c.fillStyle = this.shade.ground;
-      c.fillRect(0, y, width, 6);
-      return;
-    }
-    const [xs, ys] = [0, 1].map((i) => {
-      const [low, high] = extremes(picture.points.map((p) => p[i]));
-      const room = 0.1 * (high - low) + 0.05 + this.largest();
-      return [low - room, high + room];
-    });
-    const flat = (x, y) => pixel([x * right[0] + y * right[1], x * up[0] + y * up[1] + z * up[2]]);
-    trace(c, [[xs[0], ys[0]], [xs[1], ys[0]], [xs[1], ys[1]], [xs[0], ys[1]]].map((p) => flat(...p)));
-    c.closePath();
+    const y = this.pixel([0, picture.ground * this.directions[1][2]])[1];
+    stroke(c, [[0, y], [width, y]], this.shade.edge);
     c.fillStyle = this.shade.ground;
-    c.fill();
-  }
-
-  shape(c, at, ghost) {
-    const { shade } = this;
-    // What is behind comes first.
-    const depth = (face) => face.corners.reduce((sum, i) => sum + at[i][2], 0) / face.corners.length;
-    const faces = picture.faces.filter((f) => this.shown(f)).map((f) => [depth(f), f]).sort((a, b) => a[0] - b[0]);
-    for (const [, face] of faces) {
-      trace(c, face.corners.map((i) => at[i]));
-      c.closePath();
-      if (!ghost) { c.fillStyle = shade.face; c.fill(); }
-      c.lineWidth = ghost ? 1 : 1.5;
-      c.strokeStyle = ghost ? shade.ghost : shade.blue;
-      c.stroke();
-    }
-    // One path for all lines of a sort: thousands of single ones would not move smoothly.
-    for (const what of ["member", "tie", "edge"]) {
-      c.beginPath();
-      for (const line of picture.lines) {
-        if (line.what !== what || !this.shown(line)) continue;
-        c.moveTo(at[line.ends[0]][0], at[line.ends[0]][1]);
-        c.lineTo(at[line.ends[1]][0], at[line.ends[1]][1]);
-      }
-      c.setLineDash(what === "tie" ? [3, 3] : []);
-      c.strokeStyle = ghost ? shade.ghost : what === "tie" ? shade.tie : shade.blue;
-      c.lineWidth = ghost ? 1 : DENSE ? 0.6 : what === "member" ? 2 : 1;
-      c.stroke();
-    }
-    c.setLineDash([]);
-  }
-
-  /** Symbols of links, supports and nodes. */
-  links(c) {
-    const { shade } = this;
-    for (const link of picture.links) {
-      if (link.body || !this.shown(link)) continue;
-      const ends = link.ends.map((i) => this.at[i]);
-      if (ends.length > 1) { c.setLineDash([5, 2]); stroke(c, ends, shade.link); c.setLineDash([]); }
-      c.save();
-      c.translate(...middleOf(ends));
-      if (DENSE || this.height < 300) c.scale(0.55, 0.55);
-      c.fillStyle = `${shade.paper}b3`;
-      c.strokeStyle = shade.link;
-      c.lineWidth = 1.6;
-      c.fill(SYMBOLS[link.family]);
-      c.stroke(SYMBOLS[link.family]);
-      c.restore();
-    }
-    const small = picture.nodes.length > 300;
-    for (const node of picture.nodes) {
-      if (!this.shown(node)) continue;
-      const [x, y] = this.at[node.at];
-      if (node.fixed) stroke(c, [[x, y], [x - 6, y + 10], [x + 6, y + 10], [x, y]], shade.ink);
-      c.fillStyle = shade.ink;
-      if (!small) c.fillRect(x - 1.5, y - 1.5, 3, 3);
-    }
+    c.fillRect(0, y, width, 6);
   }
 
   /** Names, and what is looked for. */

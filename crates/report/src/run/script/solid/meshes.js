@@ -1,6 +1,6 @@
 // Triangles: of polygons, of bodies, and of the symbols of links and supports.
 
-/** A polygon in space as triangles of its corners, by cutting off ears; it may be bent inwards. */
+/** A polygon in space as triangles, each three of its corners, by cutting off ears; it may be bent inwards. */
 function triangles(corners) {
   const n = corners.length, out = [];
   const normal = [0, 0, 0];
@@ -23,10 +23,10 @@ function triangles(corners) {
     });
     // Of a polygon without an ear (a line, a knot) any corner will do.
     const i = Math.max(ear, 0);
-    out.push(left.at(i - 1), left[i], left[(i + 1) % left.length]);
+    out.push([left.at(i - 1), left[i], left[(i + 1) % left.length]]);
     left.splice(i, 1);
   }
-  out.push(...left);
+  out.push(left);
   return out;
 }
 
@@ -47,33 +47,28 @@ const SOLIDS = (() => {
   return out;
 })();
 
-/** A piece of a cone along the first axis, with n sides: corners and triangles. */
+/** A piece of a cone along the first axis, with n sides: corners and faces, which go round as seen from outside. */
 function frustum(n, r0, x0, r1, x1) {
   const ring = (r, x) => Array.from({ length: n }, (_, i) => {
     const a = (2 * Math.PI * (i + 0.5)) / n;
     return [x, r * Math.cos(a), r * Math.sin(a)];
   });
-  const corners = [...ring(r0, x0), ...ring(r1, x1)], index = [];
-  for (let i = 0; i < n; i++) {
-    const j = (i + 1) % n;
-    index.push(i, j, n + j, i, n + j, n + i);
-    if (i > 1) index.push(0, i - 1, i, n, n + i - 1, n + i);
-  }
-  return { corners, index };
+  const round = [...Array(n).keys()], sides = round.map((i) => { const j = (i + 1) % n; return [i, j, n + j, n + i]; });
+  return { corners: [...ring(r0, x0), ...ring(r1, x1)], faces: [...sides, round.toReversed(), round.map((i) => i + n)] };
 }
 
 function together(...parts) {
-  const corners = [], index = [];
+  const corners = [], faces = [];
   for (const part of parts) {
-    index.push(...part.index.map((i) => i + corners.length));
+    faces.push(...part.faces.map((f) => f.map((i) => i + corners.length)));
     corners.push(...part.corners);
   }
-  return { corners, index };
+  return { corners, faces };
 }
 
 /** A coil about the first axis. */
 function coil() {
-  const steps = 48, corners = [], index = [];
+  const steps = 48, corners = [], faces = [];
   for (let i = 0; i <= steps; i++) {
     const a = (8 * Math.PI * i) / steps, x = -1 + (2 * i) / steps;
     for (const [dr, dx] of [[-0.09, -0.09], [-0.09, 0.09], [0.09, 0.09], [0.09, -0.09]]) {
@@ -81,11 +76,11 @@ function coil() {
     }
     if (i === steps) continue;
     for (let k = 0; k < 4; k++) {
-      const [a0, b0] = [4 * i + k, 4 * i + ((k + 1) % 4)];
-      index.push(a0, b0, b0 + 4, a0, b0 + 4, a0 + 4);
+      const a0 = 4 * i + k, b0 = 4 * i + ((k + 1) % 4);
+      faces.push([a0, b0, b0 + 4, a0 + 4]);
     }
   }
-  return { corners, index };
+  return { corners, faces };
 }
 
 /** Symbols along the axis of a link, from −1 to 1; those of supports hang below their node. */

@@ -1,5 +1,5 @@
-// The model in three dimensions. One canvas that nobody sees draws for all stages of the page, which take its picture and
-// write names, legend and axes over it. Everything but displacements and colours is sent once.
+// The model in three dimensions, drawn by a graphics processor (gl.js) or without one (plain.js): what there is to draw, in
+// which order. Everything but displacements and colours is prepared once, for all stages of the page.
 
 /** Where the marks of a sort begin in the tables of looks and values. */
 const FIRST = (() => {
@@ -14,22 +14,18 @@ const CENTRE = [0, 1, 2].map((i) => {
   return low <= high ? (low + high) / 2 : 0;
 });
 
+/** What a drawing has beside where nothing is said. */
+const FREE = { factor: 1, bias: 0, shaded: 0, dash: 0, over: [-1, -1, -1] };
+
 class Solid {
-  constructor(gl, canvas) {
-    Object.assign(this, { gl, canvas });
-    this.programs = {};
-    for (const [name, text] of Object.entries({ MEMBER, LINE, FACE, SYMBOL, DOT, GROUND })) {
-      const made = program(gl, text, PAINT);
-      if (!made) { this.broken = true; return; }
-      this.programs[name] = made;
-    }
-    const vectors = [gl.RGB32F, gl.RGB, gl.FLOAT, Float32Array];
-    this.rest = new Table(gl, POINTS, vectors);
+  constructor(pen) {
+    this.pen = pen;
+    this.rest = pen.table(POINTS, "vector");
     picture.points.forEach((p, i) => this.rest.data.set(p.map((x, k) => x - CENTRE[k]), 3 * i));
     this.rest.send();
-    this.moved = new Table(gl, POINTS, vectors);
-    this.looks = new Table(gl, FIRST.all, [gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE, Uint8Array]);
-    this.values = new Table(gl, FIRST.all, [gl.R32F, gl.RED, gl.FLOAT, Float32Array]);
+    this.moved = pen.table(POINTS, "vector");
+    this.looks = pen.table(FIRST.all, "look");
+    this.values = pen.table(FIRST.all, "value");
     this.reach = Math.max(1e-9, ...[0, 1, 2].map((i) => {
       const [low, high] = extremes(picture.points.map((p) => p[i]));
       return high - low;
@@ -38,38 +34,37 @@ class Solid {
     this.faces();
     this.symbols();
     this.dots();
-    gl.enable(gl.DEPTH_TEST);
-    gl.depthFunc(gl.LEQUAL);
   }
 
   members() {
-    const { gl } = this, by = picture.outlines.map(() => []), plain = { member: [], tie: [], edge: [] };
+    const { pen } = this, by = picture.outlines.map(() => []), plain = { member: [], tie: [], edge: [] };
     picture.lines.forEach((l, i) => {
       plain[l.what].push([...l.ends, i]);
       if (l.outline != null) by[l.outline].push([...l.ends, i]);
     });
     this.prisms = picture.outlines.map((outline, k) => {
-      const n = outline.length, cap = triangles(outline), index = [...cap, ...cap.map((i) => i + n)];
-      outline.forEach((_, i) => { const j = (i + 1) % n; index.push(i, j, n + j, i, n + j, n + i); });
+      // All faces go round the same way as seen from outside.
+      const n = outline.length, cap = triangles(outline), faces = cap.flatMap((f) => [f.toReversed(), f.map((i) => i + n)]);
+      outline.forEach((_, i) => { const j = (i + 1) % n; faces.push([i, j, n + j, n + i]); });
       const ends = Int32Array.from({ length: 2 * n }, (_, i) => Number(i >= n));
-      return batch(gl, { 0: [Float32Array.from([...outline, ...outline].flat()), 3, 0], 1: [ends, 1, 0], ...many(by[k]) }, index);
+      return pen.batch({ 0: [Float32Array.from([...outline, ...outline].flat()), 3, 0], 1: [ends, 1, 0], ...many(by[k]) }, faces);
     });
     // Contours of bodies are lines of their own.
     const contours = picture.faces.flatMap((f, i) => f.corners.map((p, k) => [p, f.corners[(k + 1) % f.corners.length], FIRST.face + i]));
     const ways = picture.links.flatMap((l, i) => (l.ends.length > 1 ? [[...l.ends.slice(0, 2), FIRST.link + i]] : []));
     this.lines = Object.fromEntries(Object.entries({ ...plain, contours, ways })
-      .map(([what, all]) => [what, batch(gl, { 0: [Float32Array.from([0, -1, 1, -1, 0, 1, 1, 1]), 2, 0], ...many(all) })]));
+      .map(([what, all]) => [what, pen.batch({ 0: [Float32Array.from([0, -1, 1, -1, 0, 1, 1, 1]), 2, 0], ...many(all) })]));
   }
 
   faces() {
     const points = [], marks = [];
     for (const [corners, face] of SOLIDS) {
-      for (const i of triangles(corners.map((p) => picture.points[p]))) {
+      for (const i of triangles(corners.map((p) => picture.points[p])).flat()) {
         points.push(corners[i]);
         marks.push(FIRST.face + face);
       }
     }
-    this.solids = batch(this.gl, { 0: [Int32Array.from(points), 1, 0], 3: [Int32Array.from(marks), 1, 0] });
+    this.solids = this.pen.batch({ 0: [Int32Array.from(points), 1, 0], 3: [Int32Array.from(marks), 1, 0] });
   }
 
   symbols() {
@@ -83,18 +78,18 @@ class Solid {
     });
     picture.nodes.forEach((n, i) => { if (n.fixed) put(held(n), [n.at, n.at], FIRST.node + i, upright); });
     this.marks = Object.entries(all).map(([kind, these]) => {
-      const { corners, index } = SHAPES_OF[kind.split(" ")[0]];
+      const { corners, faces } = SHAPES_OF[kind.split(" ")[0]];
       const axes = Float32Array.from(these.flatMap((t) => t[2]));
       const mesh = { 0: [Float32Array.from(corners.flat()), 3, 0], 4: [axes, 3, 1] };
-      const made = batch(this.gl, { ...mesh, ...many(these.map(([ends, mark]) => [...ends, mark])) }, index);
-      return { ...made, over: kind.endsWith(" over") };
+      const made = this.pen.batch({ ...mesh, ...many(these.map(([ends, mark]) => [...ends, mark])) }, faces);
+      return { made, over: kind.endsWith(" over") };
     });
   }
 
   dots() {
     const points = Int32Array.from(picture.nodes, (n) => n.at), marks = Int32Array.from(picture.nodes, (_, i) => FIRST.node + i);
-    this.nodes = batch(this.gl, { 0: [points, 1, 0], 3: [marks, 1, 0] });
-    this.plane = batch(this.gl, { 0: [Float32Array.of(0, 0, 1, 0, 0, 1, 1, 1), 2, 0] });
+    this.nodes = this.pen.batch({ 0: [points, 1, 0], 3: [marks, 1, 0] });
+    this.plane = this.pen.batch({ 0: [Float32Array.of(0, 0, 1, 0, 0, 1, 1, 1), 2, 0] });
     this.sides = [0, 1].map((i) => extremes(picture.points.map((p) => p[i])).map((x) => x - CENTRE[i]));
   }
 
@@ -111,76 +106,47 @@ class Solid {
     this.looks.send();
   }
 
-  /** Draws a stage into the lower left corner of the canvas. */
-  draw(stage, u, [wide, high]) {
-    const { gl, canvas } = this, { shade, k } = stage;
-    if (canvas.width < wide) canvas.width = wide;
-    if (canvas.height < high) canvas.height = high;
-    gl.viewport(0, 0, wide, high);
-    gl.clearColor(0, 0, 0, 0);
-    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+  /** Draws a stage with displacements, in so many pixels, over what its context shows. */
+  draw(stage, u, size, c) {
+    const { pen } = this, { shade, k } = stage;
     this.moved.data.set(u);
     this.moved.send();
     const dress = [shade.paper, stage.looks, stage.tint?.how].join();
     if (this.dressed !== dress || this.of !== stage) { this.dress(stage); [this.dressed, this.of] = [dress, stage]; }
     const tint = stage.tint?.fill(this.values.data, stage.time()) ?? 0;
     if (tint === 2) this.values.send();
-    const [right, up, eye] = stage.directions, ratio = wide / stage.width;
+    const [right, up, eye] = stage.directions, ratio = size[0] / stage.width;
     const about = along(CENTRE, right), above = along(CENTRE, up), room = stage.largest();
-    this.common = {
-      right, up, eye, pixel: 1 / k, size: [wide, high], tint, most: stage.tint?.most || 1,
+    const { rest, moved, looks, values } = this;
+    pen.begin(size, {
+      right, up, eye, pixel: 1 / k, size, tint, most: stage.tint?.most || 1,
       middle: [stage.middle[0] - about, stage.middle[1] - above],
       scale: [(2 * k) / stage.width, (2 * k) / stage.height],
       shift: [(2 * stage.shift[0]) / stage.width, (-2 * stage.shift[1]) / stage.height],
       deep: [0, 1 / (2 * this.reach + 2 * room + 60 / k)], palette: stage.tint ? shade.palette.flatMap(unit) : null,
-    };
-    const textures = { rest: this.rest, moved: this.moved, looks: this.looks, values: this.values };
-    Object.values(textures).forEach((t, i) => { gl.activeTexture(gl.TEXTURE0 + i); gl.bindTexture(gl.TEXTURE_2D, t.texture); });
+    }, { rest, moved, looks, values }, stage);
     const small = DENSE || stage.height < 300;
     if (picture.ground !== null && stage.view === "space" && eye[2] > 0) {
       const [[x0, x1], [y0, y1]] = this.sides, more = 0.1 * this.reach + 0.05 + room, z = picture.ground - CENTRE[2];
-      const set = { bias: -2, over: unit(shade.ground), low: [x0 - more, y0 - more, z], high: [x1 + more, y1 + more, z] };
-      this.use("GROUND", set, this.plane, gl.TRIANGLE_STRIP);
+      pen.use("GROUND", { bias: -2, over: unit(shade.ground), low: [x0 - more, y0 - more, z], high: [x1 + more, y1 + more, z] }, this.plane);
     }
     if (stage.ghost) for (const what of ["member", "edge", "contours"]) this.line(what, { factor: 0, width: ratio, tint: 3 }, shade.ghost);
     this.line("tie", { width: ratio, dash: 4 * ratio });
     const solid = stage.sections && picture.outlines.length > 0;
-    if (solid) for (const prism of this.prisms) if (prism.instances) this.use("MEMBER", { shaded: 1 }, prism, gl.TRIANGLES);
+    if (solid) for (const prism of this.prisms) if (prism.instances) pen.use("MEMBER", { shaded: 1 }, prism);
     this.line("member", { width: ratio * (solid || DENSE ? 1 : 2.4), bias: solid ? -1 : 0 });
-    if (this.solids.vertices) this.use("FACE", { shaded: 1, bias: -1 }, this.solids, gl.TRIANGLES);
+    if (this.solids.vertices) pen.use("FACE", { shaded: 1, bias: -1 }, this.solids);
     this.line("contours", { width: 1.2 * ratio, bias: 1, tint: 3 }, shade.contour);
     this.line("edge", { width: ratio, bias: 1, tint: 3 });
     this.line("ways", { width: 1.4 * ratio, dash: 5 * ratio });
-    for (const mark of this.marks) {
-      gl.depthFunc(mark.over ? gl.ALWAYS : gl.LEQUAL);
-      this.use("SYMBOL", { shaded: 1, large: small ? 5 : 9, bias: small ? 5 : 9 }, mark, gl.TRIANGLES);
-    }
-    gl.depthFunc(gl.LEQUAL);
+    for (const { made, over } of this.marks) pen.use("SYMBOL", { shaded: 1, large: small ? 5 : 9, bias: small ? 5 : 9 }, made, over);
     const nodes = stage.tint?.nodes;
-    if (nodes || picture.nodes.length <= 300) this.use("DOT", { large: ratio * (nodes ? 8 : 3.5), bias: 12 }, this.nodes, gl.POINTS);
-    gl.activeTexture(gl.TEXTURE0);
+    if (nodes || picture.nodes.length <= 300) pen.use("DOT", { large: ratio * (nodes ? 8 : 3.5), bias: 12 }, this.nodes);
+    pen.lay(c, stage.width, stage.height);
   }
 
   line(what, set, color) {
-    const { gl } = this;
-    if (!this.lines[what].instances) return;
-    this.use("LINE", { ...set, ...(color && { over: unit(color) }) }, this.lines[what], gl.TRIANGLE_STRIP);
-  }
-
-  /** One call with what all share and what it has beside. */
-  use(name, set, what, mode) {
-    const { gl } = this, { made, at } = this.programs[name];
-    gl.useProgram(made);
-    const all = { factor: 1, bias: 0, shaded: 0, dash: 0, over: [-1, -1, -1], rest: 0, moved: 1, looks: 2, values: 3, ...this.common, ...set };
-    for (const [key, place] of Object.entries(at)) {
-      const x = all[key];
-      if (x == null) continue;
-      if (key === "palette") gl.uniform3fv(place, x);
-      else if (["rest", "moved", "looks", "values", "tint"].includes(key)) gl.uniform1i(place, x);
-      else if (Array.isArray(x)) gl[`uniform${x.length}fv`](place, x);
-      else gl.uniform1f(place, x);
-    }
-    call(gl, what, mode);
+    if (this.lines[what].instances) this.pen.use("LINE", { ...set, ...(color && { over: unit(color) }) }, this.lines[what]);
   }
 }
 
@@ -195,19 +161,20 @@ const rgb = (hex) => [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16));
 /** The same to 1. */
 const unit = (hex) => rgb(hex).map((x) => x / 255);
 
-/** The one that draws for all stages; null where there is no WebGL 2: they draw flat then. */
+/** The one that draws for all stages; null where there is nothing to draw. */
 let solid = null;
 (() => {
-  const canvas = document.createElement("canvas");
-  const begin = () => {
-    // Without a graphics processor a large model moves faster flat.
-    const gl = POINTS > 0 && canvas.getContext("webgl2", { antialias: true, failIfMajorPerformanceCaveat: DENSE });
-    const made = gl && !gl.isContextLost() ? new Solid(gl, canvas) : null;
-    solid = made && !made.broken ? made : null;
-    root.dataset.solid = String(solid !== null);
+  if (POINTS === 0) return;
+  const begin = (pen) => {
+    solid = new Solid(pen);
+    root.dataset.solid = pen instanceof Graphics ? "webgl" : "plain";
   };
   const again = () => { for (const stage of stages) stage.draw(); };
-  canvas.addEventListener("webglcontextlost", (e) => { e.preventDefault(); solid = null; again(); });
-  canvas.addEventListener("webglcontextrestored", () => { begin(); again(); });
-  begin();
+  const graphics = new Graphics();
+  begin(graphics.broken ? new Plain() : graphics);
+  graphics.canvas.addEventListener("webglcontextlost", (e) => { e.preventDefault(); begin(new Plain()); again(); });
+  graphics.canvas.addEventListener("webglcontextrestored", () => {
+    const anew = new Graphics(graphics.canvas);
+    if (!anew.broken) { begin(anew); again(); }
+  });
 })();
