@@ -1,7 +1,7 @@
 // How the model is drawn where there is no graphics processor: the same drawings as those of WebGL, pixel by pixel.
 
-/** Pixels of the sheet along one of the screen: edges are smooth by their mean. A large model has fewer while it moves, and all
- *  of them when it has been at rest for so long, ms. */
+/** Pixels of the sheet along one of CSS: edges are smooth by their mean. A large model has one while it moves, and all of them
+ *  when it has been at rest for so long, ms. */
 const [FINE, REST] = [2, 150];
 
 class Plain {
@@ -28,12 +28,14 @@ class Plain {
   /** stage: who is drawn. */
   begin(size, common, tables, stage) {
     clearTimeout(stage.refining);
-    this.fine = DENSE && !stage.rests ? 1 : FINE;
-    if (this.fine < FINE) stage.refining = setTimeout(() => { stage.rests = true; stage.draw(); }, REST);
-    stage.canvas.dataset.fine = String(this.fine === FINE);
+    const moves = DENSE && !stage.rests, ratio = size[0] / stage.width;
+    if (moves) stage.refining = setTimeout(() => { stage.rests = true; stage.draw(); }, REST);
+    stage.canvas.dataset.fine = String(!moves);
     stage.rests = false;
+    // Pixels of the sheet along one of the screen.
+    this.fine = moves ? 1 / Math.max(1, ratio) : Math.max(1, FINE / ratio);
     const { right, up, eye, middle, scale, shift, palette } = common;
-    const [wide, high] = size.map((n) => this.fine * n);
+    const [wide, high] = size.map((n) => Math.round(this.fine * n));
     Object.assign(this, { common, tables, places: new Map() });
     // Right, down and towards the eye in pixels.
     const [sx, sy] = [(scale[0] * wide) / 2, (scale[1] * high) / 2];
