@@ -286,7 +286,7 @@ async function look(path) {
   }
   await value("new Promise(requestAnimationFrame)");
   if (shown.length) {
-    const off = Math.max(...(await value(SHOWN)).map((picture, i) => apart(picture, shown[i] ?? [])));
+    const now = await value(SHOWN), off = Math.max(...shown.map((picture, i) => apart(picture, now[i] ?? [])));
     if (!(off <= APART)) complain(name, view, `the model is drawn otherwise, by ${off.toFixed(1)} of 255`);
     for (const what of await value(MODEL('["plain"]'))) complain(name, view, what);
   }

@@ -1,4 +1,4 @@
-// Triangles: of polygons, of bodies, and of the symbols of links and supports.
+// Faces: of polygons, of bodies, and of the symbols of links and supports.
 
 /** A polygon in space as triangles, each three of its corners, by cutting off ears; it may be bent inwards. */
 function triangles(corners) {
@@ -54,7 +54,7 @@ function frustum(n, r0, x0, r1, x1) {
     return [x, r * Math.cos(a), r * Math.sin(a)];
   });
   const round = [...Array(n).keys()], sides = round.map((i) => { const j = (i + 1) % n; return [i, j, n + j, n + i]; });
-  return { corners: [...ring(r0, x0), ...ring(r1, x1)], faces: [...sides, round.toReversed(), round.map((i) => i + n)] };
+  return { corners: [...ring(r0, x0), ...ring(r1, x1)], faces: [...sides, [...round].reverse(), round.map((i) => i + n)] };
 }
 
 function together(...parts) {

@@ -44,7 +44,7 @@ class Solid {
     });
     this.prisms = picture.outlines.map((outline, k) => {
       // All faces go round the same way as seen from outside.
-      const n = outline.length, cap = triangles(outline), faces = cap.flatMap((f) => [f.toReversed(), f.map((i) => i + n)]);
+      const n = outline.length, cap = triangles(outline), faces = cap.flatMap((f) => [[...f].reverse(), f.map((i) => i + n)]);
       outline.forEach((_, i) => { const j = (i + 1) % n; faces.push([i, j, n + j, n + i]); });
       const ends = Int32Array.from({ length: 2 * n }, (_, i) => Number(i >= n));
       return pen.batch({ 0: [Float32Array.from([...outline, ...outline].flat()), 3, 0], 1: [ends, 1, 0], ...many(by[k]) }, faces);
