@@ -38,6 +38,7 @@ mod outputs;
 mod peaks;
 mod pieces;
 mod plan;
+mod prepare;
 mod record;
 mod rules;
 mod search;
@@ -56,7 +57,8 @@ mod way;
 
 pub use integral::Integral;
 pub use march::{Instructions, march, march_by};
-pub use setup::{LaneSetup, prepare};
+pub use prepare::prepare;
+pub use setup::LaneSetup;
 pub use tables::Tables;
 
 use crate::record::{ContactSummary, EnergyTotals, LinkEnergy};
