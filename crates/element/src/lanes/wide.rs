@@ -17,7 +17,6 @@ pub struct Fused(pub f64);
 
 /// Numbers in `K` registers: eight in two of AVX2 or in one of AVX-512, which lie in one line of the cache; four in one
 /// of AVX2.
-#[derive(Clone, Copy)]
 #[repr(align(64))]
 pub struct Wide<S: Simd, const K: usize> {
     pub(super) simd: S,
@@ -25,11 +24,25 @@ pub struct Wide<S: Simd, const K: usize> {
 }
 
 /// Eight answers.
-#[derive(Clone, Copy)]
 pub struct WideMask<S: Simd, const K: usize> {
     simd: S,
     x: [S::m64s; K],
 }
+
+// Copied as a whole: a derived clone would go over the registers one by one.
+macro_rules! copied {
+    ($($name:ident),*) => {$(
+        impl<S: Simd, const K: usize> Copy for $name<S, K> {}
+
+        impl<S: Simd, const K: usize> Clone for $name<S, K> {
+            #[inline(always)]
+            fn clone(&self) -> Self {
+                *self
+            }
+        }
+    )*};
+}
+copied!(Wide, WideMask);
 
 impl<S: Simd, const K: usize> fmt::Debug for Wide<S, K> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

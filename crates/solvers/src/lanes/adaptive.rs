@@ -14,7 +14,7 @@ use super::plan::Plan;
 use super::record::Record;
 use super::setup::LaneSetup;
 use super::sizes::Sizes;
-use super::state::{Keep, State};
+use super::state::{State, keep};
 use super::trial::Trial;
 use super::way::{Next, Way};
 use super::{Done, LaneOutcome};
@@ -65,7 +65,7 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
                     plan = Plan::new(with, &seats.own);
                     let who = mask(with, |i| fresh[i]);
                     let before = std::mem::replace(&mut at, State::new(with, &seats.own, &plan));
-                    with.run(Keep { plan: &plan, mask: who, to: &mut at, from: &before });
+                    keep(with, &plan, who, &mut at, &before);
                     let fresh_record = Record::new(with, &seats.own, &plan);
                     let before = std::mem::replace(&mut record, fresh_record);
                     record.take(!who, &before);

@@ -21,7 +21,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
         let zero = with.splat(0.0);
         let mut amplitudes = vec![with.splat(1.0); self.forces.len()];
         self.varying.iter().for_each(|v| amplitudes[v.channel] = zero);
-        let start = Aligned([zero; M]);
+        let start = Aligned::filled(zero);
         Loads { start, end: start, amplitudes }
     }
 

@@ -8,7 +8,7 @@ use super::plan::Plan;
 use super::record::Record;
 use super::setup::{LaneSetup, ROOM};
 use super::state::State;
-use super::step::{Passed, account, take};
+use super::step::{Passed, account, account_apart, take};
 use super::{Done, LaneOutcome};
 use trilith_element::lanes::{Arithmetic, Portable, Real, Task};
 #[cfg(target_arch = "x86_64")]
@@ -209,8 +209,7 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A> for 
         for step in 0..shape.grid.steps {
             if cuts.next_if_eq(&step).is_some() {
                 if std::mem::take(&mut open) {
-                    let (plan, rule, passed) = (&plan, &usual, &passed);
-                    with.run(Account { plan, rule, passed, state: &state, record: &mut record });
+                    account_apart(with, &plan, &usual, &passed, &state, &mut record);
                 }
                 cut_step(with, self.setups, &plan, step, (&mut state, &mut record));
             } else {
@@ -244,31 +243,9 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A> for 
             }
         }
         if open {
-            let (plan, rule, passed) = (&plan, &usual, &passed);
-            with.run(Account { plan, rule, passed, state: &state, record: &mut record });
+            account_apart(with, &plan, &usual, &passed, &state, &mut record);
         }
         let left = |i: usize| state.outcome(with, &record, self.setups[i], i, None);
         (0..self.setups.len()).map(left).collect()
-    }
-}
-
-/// What [`account`] does, as a task.
-struct Account<'a, R: Real, const M: usize, const L: usize, const N: usize> {
-    plan: &'a Plan<R, M, L, N>,
-    rule: &'a Rule<R, M, L>,
-    passed: &'a Passed<R, M>,
-    state: &'a State<R, M, L, N>,
-    record: &'a mut Record<R>,
-}
-
-impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
-    for Account<'_, A::Real, M, L, N>
-{
-    type Output = ();
-
-    #[inline(always)]
-    fn run(self, with: A) {
-        let Self { plan, rule, passed, state, record } = self;
-        account(with, plan, rule, passed, state, record);
     }
 }

@@ -46,19 +46,19 @@ impl<R: Real, const M: usize, const L: usize> Found<R, M, L> {
     /// Nothing yet.
     pub fn new(zero: R) -> Self {
         Self {
-            d: Aligned([zero; L]),
+            d: Aligned::filled(zero),
             // Laws that do not look at rates get none.
-            v: Aligned([zero.of(f64::NAN); L]),
-            f: Aligned([zero; L]),
-            forces: Aligned([zero; L]),
+            v: Aligned::filled(zero.of(f64::NAN)),
+            f: Aligned::filled(zero),
+            forces: Aligned::filled(zero),
             scale: [zero; 2],
-            integral: Aligned([zero; M]),
-            q: Aligned([zero; M]),
-            p: Aligned([zero; M]),
-            held: Aligned([zero; L]),
-            rates_held: Aligned([zero; L]),
-            change: Aligned([zero; L]),
-            j: Aligned([[zero; L]; L]),
+            integral: Aligned::filled(zero),
+            q: Aligned::filled(zero),
+            p: Aligned::filled(zero),
+            held: Aligned::filled(zero),
+            rates_held: Aligned::filled(zero),
+            change: Aligned::filled(zero),
+            j: Aligned::full_of(zero),
             wrong: zero.lt(zero),
         }
     }

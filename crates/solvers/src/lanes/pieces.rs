@@ -6,13 +6,13 @@ use super::grid::Piece;
 use super::loads::Loads;
 use super::newton::Found;
 use super::plan::Plan;
-use super::record::{Record, TakeRecord};
+use super::record::{Record, take_record};
 use super::setup::LaneSetup;
 use super::show::show;
 use super::small::Aligned;
-use super::state::{State, forget, keep, take_answers};
-use super::step::{Passed, acceleration, account, take};
-use super::trial::{By, Enter, Follow, Make};
+use super::state::{State, keep};
+use super::step::{Passed, acceleration, account_apart, take};
+use super::trial::{By, Make, follow, make};
 use crate::march::DEPTH;
 use trilith_element::lanes::{Arithmetic, Real, Task};
 
@@ -104,7 +104,11 @@ pub(super) fn in_halves<A: Arithmetic, const M: usize, const L: usize, const N: 
     let wrong = found.wrong;
     let before = (state.clone(), record.clone());
     let begin = with.splat(t);
-    with.run(End { plan, rule, loads, t: begin, found, before: &before, state, record });
+    let mut passed = Passed::new(with.splat(0.0));
+    with.run(End { plan, rule, loads, t: begin, found, state, passed: &mut passed });
+    account_apart(with, plan, rule, &passed, state, record);
+    keep(with, plan, !wrong, state, &before.0);
+    take_record(with, wrong, &before.1, record);
     let grid = setups[0].shape.grid;
     let length = grid.step();
     let walks = (0..setups.len()).map(|i| {
@@ -136,7 +140,7 @@ fn walk<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
         // Who has nothing left takes any step, and forgets it.
         let any = Piece { start: 0.0, end: grid.dt, length: grid.dt, jump: false };
         let now: Vec<Piece> = next.iter().map(|p| p.unwrap_or(any)).collect();
-        let rule = Rule::of_lengths(with, setups, plan, |i| now[i].length);
+        let rule = Rule::of_lengths(with, setups, plan, &|i| now[i].length);
         let loads = plan.loads_of_pieces(with, setups, &now);
         let t = with.gather(|i| now[i.min(last)].start);
         if plan.accelerations && now.iter().any(|p| p.jump) {
@@ -144,20 +148,18 @@ fn walk<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
             let jumps = with.gather(|i| f64::from(u8::from(now[i.min(last)].jump)));
             let who = zero.lt(jumps);
             state.amplitudes = plan.amplitudes_behind(with, setups, &now);
-            let load = &loads.start;
-            with.run(Behind { plan, load, t, who, before: &before, state, record });
+            look_behind(with, plan, &loads.start, (who, t), &before, (state, record));
         }
         let (who, from) = (zero.lt(goes), &*state);
         let (by, loads, asked) = (By::Given(&rule), &loads, None);
         let (to, found, passed) = (&mut made, &mut found, &mut passed);
-        let (wrong, _) = with.run(Make { plan, by, loads, t, who, from, to, found, passed, asked });
+        let step = Make { plan, by, loads, t, who, from, to, found, passed, asked };
+        let (wrong, _) = make(with, step);
         let ok = who & !wrong;
-        with.run(TakeRecord { mask: zero.le(zero), from: record, to: &mut before });
-        with.run(Enter { plan, rule: &rule, made: &made, passed, record });
-        with.run(TakeRecord { mask: !ok, from: &before, to: record });
-        with.run(Follow { plan, some: Some(ok), made: &made, at: state });
-        take_answers(ok, &made, state);
-        forget(wrong, state);
+        take_record(with, zero.le(zero), record, &mut before);
+        account_apart(with, plan, &rule, passed, &made, record);
+        take_record(with, !ok, &before, record);
+        follow(with, plan, Some(ok), &made, state);
         state.iterations = made.iterations;
         let failed = with.splat(1.0).only(wrong);
         let mut lost = vec![false; walks.len()];
@@ -173,15 +175,29 @@ fn walk<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
     }
 }
 
-/// What outputs are where loads have jumped, of the analyses in `who`, as a task.
-pub(super) struct Behind<'a, R: Real, const M: usize, const L: usize, const N: usize> {
-    pub plan: &'a Plan<R, M, L, N>,
-    pub load: &'a Aligned<[R; M]>,
-    pub t: R,
-    pub who: R::Mask,
-    pub before: &'a (State<R, M, L, N>, Record<R>),
-    pub state: &'a mut State<R, M, L, N>,
-    pub record: &'a mut Record<R>,
+/// What outputs are where loads have jumped, of the analyses in `who` at their times; of the others the record of before
+/// stays.
+#[inline(never)]
+pub(super) fn look_behind<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
+    with: A,
+    plan: &Plan<A::Real, M, L, N>,
+    load: &Aligned<[A::Real; M]>,
+    (who, t): (<A::Real as Real>::Mask, A::Real),
+    before: &(State<A::Real, M, L, N>, Record<A::Real>),
+    (state, record): (&mut State<A::Real, M, L, N>, &mut Record<A::Real>),
+) {
+    with.run(Behind { plan, load, t, state, record });
+    keep(with, plan, who, state, &before.0);
+    take_record(with, !who, &before.1, record);
+}
+
+/// What outputs are under other loads, as a task.
+struct Behind<'a, R: Real, const M: usize, const L: usize, const N: usize> {
+    plan: &'a Plan<R, M, L, N>,
+    load: &'a Aligned<[R; M]>,
+    t: R,
+    state: &'a mut State<R, M, L, N>,
+    record: &'a mut Record<R>,
 }
 
 impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
@@ -191,25 +207,22 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
 
     #[inline(always)]
     fn run(self, with: A) {
-        let Self { plan, load, t, who, before, state, record } = self;
+        let Self { plan, load, t, state, record } = self;
         let zero = with.splat(0.0);
         acceleration(plan, load, state);
         show(with, plan, (t, zero, zero), state, record);
-        keep(who, state, &before.0, plan);
-        record.take(!who, &before.1);
     }
 }
 
-/// The end of a step for who found an equilibrium, as a task.
+/// The end of a step, as a task.
 struct End<'a, R: Real, const M: usize, const L: usize, const N: usize> {
     plan: &'a Plan<R, M, L, N>,
     rule: &'a Rule<R, M, L>,
     loads: &'a Loads<R, M>,
     t: R,
     found: &'a Found<R, M, L>,
-    before: &'a (State<R, M, L, N>, Record<R>),
     state: &'a mut State<R, M, L, N>,
-    record: &'a mut Record<R>,
+    passed: &'a mut Passed<R, M>,
 }
 
 impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
@@ -218,14 +231,8 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
     type Output = ();
 
     #[inline(always)]
-    fn run(self, with: A) {
-        let Self { plan, rule, loads, t, found, before, state, record } = self;
-        let wrong = found.wrong;
-        let mut passed = Passed::new(with.splat(0.0));
-        take(plan, rule, (loads, t), found, state, &mut passed);
-        account(with, plan, rule, &passed, state, record);
-        keep(!wrong, state, &before.0, plan);
-        record.take(wrong, &before.1);
-        forget(wrong, state);
+    fn run(self, _: A) {
+        let Self { plan, rule, loads, t, found, state, passed } = self;
+        take(plan, rule, (loads, t), found, state, passed);
     }
 }

@@ -97,7 +97,7 @@ pub(super) fn mode_wise<A: Arithmetic, const M: usize>(
     setups: &[&LaneSetup],
     of: &dyn Fn(&LaneSetup, usize) -> f64,
 ) -> Aligned<[A::Real; M]> {
-    let mut all = Aligned([with.splat(0.0); M]);
+    let mut all = Aligned::filled(with.splat(0.0));
     for (j, x) in all.iter_mut().enumerate().take(setups[0].shape.modes) {
         *x = pick(with, setups, &|s| of(s, j));
     }
@@ -112,11 +112,48 @@ pub(super) fn coordinate_wise<A: Arithmetic, const L: usize>(
     places: &[usize],
     of: &dyn Fn(&LaneSetup, usize) -> f64,
 ) -> Aligned<[A::Real; L]> {
-    let mut all = Aligned([with.splat(0.0); L]);
+    let mut all = Aligned::filled(with.splat(0.0));
     for (i, place) in places.iter().enumerate() {
         all[*place] = pick(with, setups, &|s| of(s, i));
     }
     all
+}
+
+/// Where the links of a lane lie.
+struct Layout {
+    runs: Vec<Run>,
+    /// Place of each lane coordinate of the setups.
+    places: Vec<usize>,
+    /// Number of contacts.
+    contacts: usize,
+}
+
+impl Layout {
+    /// Of links with room for `n` coordinates each.
+    fn new(setups: &[&LaneSetup], n: usize) -> Self {
+        let mut places = Vec::new();
+        let mut runs: Vec<Run> = Vec::new();
+        let (mut history, mut contact, mut parameters) = (0, 0, 0);
+        for (link, form) in setups[0].forms.iter().enumerate() {
+            let (first, extent) = (link * n, form.extent);
+            places.extend((0..extent.coordinates).map(|i| first + i));
+            let joins = |r: &&mut Run| r.laws.serve(form) && extent.coordinates == n;
+            match runs.last_mut().filter(joins) {
+                Some(run) => run.count += 1,
+                None => {
+                    let own: Vec<&Form> = setups.iter().map(|s| &s.forms[link]).collect();
+                    let (laws, count) = (Laws::of(&own), 1);
+                    let run =
+                        Run { laws, extent, first, count, history, parameters, link, contact };
+                    runs.push(run);
+                }
+            }
+            history += extent.history;
+            contact += extent.contacts;
+            parameters += extent.parameters;
+        }
+        Self { runs, places, contacts: contact }
+    }
 }
 
 impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
@@ -126,42 +163,18 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
         let get = |of: &dyn Fn(&LaneSetup) -> f64| pick(with, setups, of);
         let modes = one.shape.modes;
         let mode_wise = |of: &dyn Fn(&LaneSetup, usize) -> f64| mode_wise::<A, M>(with, setups, of);
-        let mut places = Vec::new();
-        let mut runs: Vec<Run> = Vec::new();
-        let (mut history, mut contact, mut parameters) = (0, 0, Vec::new());
-        for (l, form) in one.forms.iter().enumerate() {
-            let (first, extent) = (l * N, form.extent);
-            places.extend((0..extent.coordinates).map(|i| first + i));
-            let joins = |r: &&mut Run| r.laws.serve(form) && extent.coordinates == N;
-            match runs.last_mut().filter(joins) {
-                Some(run) => run.count += 1,
-                None => {
-                    let own: Vec<&Form> = setups.iter().map(|s| &s.forms[l]).collect();
-                    let (laws, parameters) = (Laws::of(&own), parameters.len());
-                    let (count, link) = (1, l);
-                    runs.push(Run {
-                        laws,
-                        extent,
-                        first,
-                        count,
-                        history,
-                        parameters,
-                        link,
-                        contact,
-                    });
-                }
-            }
-            history += extent.history;
-            contact += extent.contacts;
-            parameters.extend((0..extent.parameters).map(|i| get(&|s| s.forms[l].parameters[i])));
-        }
-        let mut b = Aligned([[zero; M]; L]);
+        let Layout { runs, places, contacts } = Layout::new(setups, N);
+        let parameters = one.forms.iter().enumerate().flat_map(|(l, form)| {
+            (0..form.extent.parameters).map(move |i| get(&|s| s.forms[l].parameters[i]))
+        });
+        let parameters = parameters.collect();
+        let mut b = Aligned::full_of(zero);
         let mut rotational = [false; L];
         for (i, place) in places.iter().enumerate() {
             b[*place] = *mode_wise(&|s, j| s.rows[i][j]);
             rotational[*place] = one.rotational[i];
         }
-        let mut columns = Aligned([[zero; L]; M]);
+        let mut columns = Aligned::full_of(zero);
         for (j, column) in columns.iter_mut().enumerate() {
             for (to, row) in column.iter_mut().zip(&*b) {
                 *to = row[j];
@@ -185,7 +198,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
         let conserved = |s: &LaneSetup, j: usize| -> f64 {
             (0..channels).filter(|c| s.conservative[*c]).map(|c| s.forces[c][j]).sum()
         };
-        let mut steady = Aligned([zero; M]);
+        let mut steady = Aligned::filled(zero);
         for c in (0..channels).filter(|c| one.tables[*c].is_none()) {
             for j in 0..modes {
                 steady[j] = steady[j] + get(&|s| s.forces[c][j]);
@@ -216,9 +229,9 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
                 .iter()
                 .any(|o| matches!(o, Output::Motion { order: 1 | 2, .. })),
             outputs: Outputs::new(with, setups, &places),
-            contacts: contact,
+            contacts,
             feet: one.shape.feet.clone(),
-            others: (0..contact).filter(|i| !one.shape.feet.contains(i)).collect(),
+            others: (0..contacts).filter(|i| !one.shape.feet.contains(i)).collect(),
             falls: one.forms.iter().any(|f| f.extent.falls),
             places,
         }

@@ -98,11 +98,22 @@ impl<R: Real> Record<R> {
     }
 }
 
+/// What [`Record::take`] does, by a call.
+#[inline(never)]
+pub(super) fn take_record<A: Arithmetic>(
+    with: A,
+    mask: <A::Real as Real>::Mask,
+    from: &Record<A::Real>,
+    to: &mut Record<A::Real>,
+) {
+    with.run(TakeRecord { mask, from, to });
+}
+
 /// What [`Record::take`] does, as a task.
-pub(super) struct TakeRecord<'a, R: Real> {
-    pub mask: R::Mask,
-    pub from: &'a Record<R>,
-    pub to: &'a mut Record<R>,
+struct TakeRecord<'a, R: Real> {
+    mask: R::Mask,
+    from: &'a Record<R>,
+    to: &'a mut Record<R>,
 }
 
 impl<A: Arithmetic> Task<A> for TakeRecord<'_, A::Real> {

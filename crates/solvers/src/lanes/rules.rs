@@ -8,20 +8,18 @@
 //! ```
 
 use super::adaptive::MOST;
-use super::coefficients::Rule;
+use super::coefficients::{Numbers, Rule};
 use super::plan::Plan;
 use super::sizes::Size;
 use super::state::State;
 use crate::fna::{FREE, LONGEST};
 use crate::modal::Mode;
 use std::ops::Range;
-use trilith_element::lanes::{Arithmetic, Real, Task};
+use trilith_element::lanes::{Arithmetic, Real};
 
 /// The rules of a step of one length for each analysis.
 pub(super) struct Rules<R: Real, const M: usize, const L: usize> {
-    /// Coefficients as in [`Rule::c`], lane by lane.
-    numbers: Box<[[[[f64; MOST]; M]; 4]; 3]>,
-    lengths: [f64; MOST],
+    numbers: Numbers<M>,
     /// Largest eigenvalue of G k where all links are engaged: where that is small, nobody asks how stiff they are.
     ratios: [f64; MOST],
     exact: Rule<R, M, L>,
@@ -35,8 +33,7 @@ impl<R: Real, const M: usize, const L: usize> Rules<R, M, L> {
     /// Of no length yet.
     pub fn new(zero: R) -> Self {
         Self {
-            numbers: Box::new([[[[0.0; MOST]; M]; 4]; 3]),
-            lengths: [0.0; MOST],
+            numbers: Numbers::new(),
             ratios: [0.0; MOST],
             exact: Rule::nothing(zero),
             ratio: zero,
@@ -47,17 +44,8 @@ impl<R: Real, const M: usize, const L: usize> Rules<R, M, L> {
 
     /// Gives lanes another size.
     pub fn set(&mut self, lanes: Range<usize>, size: &Size) {
-        // As a rule it is one lane: numbers are put there one by one, without a call to fill a slice.
-        for lane in lanes {
-            (self.lengths[lane], self.ratios[lane]) = (size.length, size.ratio);
-            for (j, mode) in size.modes.iter().enumerate().take(M) {
-                for row in 0..3 {
-                    for input in 0..4 {
-                        self.numbers[row][input][j][lane] = mode[row][input];
-                    }
-                }
-            }
-        }
+        self.ratios[lanes.clone()].iter_mut().for_each(|ratio| *ratio = size.ratio);
+        self.numbers.set(lanes, size.length, &size.modes);
     }
 
     /// Makes the rule of the sizes as they are now.
@@ -67,7 +55,11 @@ impl<R: Real, const M: usize, const L: usize> Rules<R, M, L> {
         with: A,
         plan: &Plan<R, M, L, N>,
     ) {
-        with.run(Renew { plan, rules: self });
+        let Self { numbers, ratios, exact, ratio, is_stiff, mixed } = self;
+        exact.renew(with, plan, numbers);
+        *ratio = with.load(ratios);
+        *is_stiff = with.splat(0.0).any(with.splat(LONGEST).lt(*ratio));
+        *mixed = None;
     }
 
     /// The exact rule: any tells the length.
@@ -104,35 +96,6 @@ impl<R: Real, const M: usize, const L: usize> Rules<R, M, L> {
             rule.average(exact, plan, &held);
         }
         mixed.as_ref().map_or(exact, |(rule, _)| rule)
-    }
-}
-
-/// What [`Rules::renew`] does, as a task.
-struct Renew<'a, R: Real, const M: usize, const L: usize, const N: usize> {
-    plan: &'a Plan<R, M, L, N>,
-    rules: &'a mut Rules<R, M, L>,
-}
-
-impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
-    for Renew<'_, A::Real, M, L, N>
-{
-    type Output = ();
-
-    #[inline(always)]
-    fn run(self, with: A) {
-        let Self { plan, rules } = self;
-        let Rules { numbers, lengths, ratios, exact, ratio, is_stiff, mixed } = rules;
-        for row in 0..3 {
-            for input in 0..4 {
-                for j in 0..plan.modes() {
-                    exact.c[row][input][j] = with.load(&numbers[row][input][j]);
-                }
-            }
-        }
-        exact.of_length(plan, with.load(lengths));
-        *ratio = with.load(ratios);
-        *is_stiff = with.splat(0.0).any(with.splat(LONGEST).lt(*ratio));
-        *mixed = None;
     }
 }
 

@@ -145,9 +145,34 @@ pub(super) fn dot<R: Real>(zero: R, row: &[R], x: &[R]) -> R {
 }
 
 /// What the registers read and write as a whole: so that no number lies across two lines of the cache.
-#[derive(Clone, Copy)]
 #[repr(align(32))]
 pub(super) struct Aligned<T>(pub T);
+
+// Copied as a whole: a derived clone would go over all entries one by one.
+impl<T: Copy> Copy for Aligned<T> {}
+
+impl<T: Copy> Clone for Aligned<T> {
+    #[inline(always)]
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<T: Copy, const K: usize> Aligned<[T; K]> {
+    /// The same in all places. By a call: where it stands inside others the compiler writes out place after place.
+    #[inline(never)]
+    pub fn filled(x: T) -> Self {
+        Self([x; K])
+    }
+}
+
+impl<T: Copy, const K: usize, const L: usize> Aligned<[[T; K]; L]> {
+    /// The same in all places of a matrix.
+    #[inline(never)]
+    pub fn full_of(x: T) -> Self {
+        Self([[x; K]; L])
+    }
+}
 
 impl<T> Deref for Aligned<T> {
     type Target = T;

@@ -54,7 +54,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
         };
         let f = flat(&|s, i| s.f[i]);
         let stiffness = flat(&|s, i| s.stiffness[i]);
-        let mut k = Aligned([[zero; N]; L]);
+        let mut k = Aligned::full_of(zero);
         for (a, (row, own)) in k.iter_mut().zip(*stiffness).enumerate() {
             row[a % N] = own;
         }
@@ -72,9 +72,9 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
             f,
             k,
             stiffest: flat(&|s, i| s.stiffest[i]),
-            c: Aligned([[zero; N]; L]),
-            answer: Aligned([[zero; L]; L]),
-            answer_to_rate: Aligned([[zero; L]; L]),
+            c: Aligned::full_of(zero),
+            answer: Aligned::full_of(zero),
+            answer_to_rate: Aligned::full_of(zero),
             trial: history.clone(),
             history,
             scale: [0, 1].map(|i| get(&|s| s.scale[i])),
@@ -195,26 +195,23 @@ fn take_motion<R: Real, const M: usize, const L: usize, const N: usize>(
 }
 
 /// Takes the other state where a mask says no. Who is alive and how often the laws were asked is left.
-#[inline(always)]
-pub(super) fn keep<R: Real, const M: usize, const L: usize, const N: usize>(
-    mask: R::Mask,
-    to: &mut State<R, M, L, N>,
-    from: &State<R, M, L, N>,
-    plan: &Plan<R, M, L, N>,
+#[inline(never)]
+pub(super) fn keep<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
+    with: A,
+    plan: &Plan<A::Real, M, L, N>,
+    mask: <A::Real as Real>::Mask,
+    to: &mut State<A::Real, M, L, N>,
+    from: &State<A::Real, M, L, N>,
 ) {
-    take_motion(!mask, from, to, plan);
-    take_answers(!mask, from, to);
-    for (to, from) in to.steps.iter_mut().zip(&from.steps) {
-        to.stored = R::select(mask, to.stored, from.stored);
-    }
+    with.run(Keep { plan, mask, to, from });
 }
 
 /// What [`keep`] does, as a task.
-pub(super) struct Keep<'a, R: Real, const M: usize, const L: usize, const N: usize> {
-    pub plan: &'a Plan<R, M, L, N>,
-    pub mask: R::Mask,
-    pub to: &'a mut State<R, M, L, N>,
-    pub from: &'a State<R, M, L, N>,
+struct Keep<'a, R: Real, const M: usize, const L: usize, const N: usize> {
+    plan: &'a Plan<R, M, L, N>,
+    mask: R::Mask,
+    to: &'a mut State<R, M, L, N>,
+    from: &'a State<R, M, L, N>,
 }
 
 impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
@@ -224,24 +221,18 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
 
     #[inline(always)]
     fn run(self, _: A) {
-        keep(self.mask, self.to, self.from, self.plan);
-    }
-}
-
-/// The next first guess expects no answer where a mask says so: after a failure the tangents may be no numbers.
-pub(super) fn forget<R: Real, const M: usize, const L: usize, const N: usize>(
-    mask: R::Mask,
-    state: &mut State<R, M, L, N>,
-) {
-    let answers = [&mut state.answer, &mut state.answer_to_rate];
-    for x in answers.into_iter().flat_map(|b| b.as_flattened_mut()) {
-        *x = R::select(mask, x.of(0.0), *x);
+        let Self { plan, mask, to, from } = self;
+        take_motion(!mask, from, to, plan);
+        take_answers(!mask, from, to);
+        for (to, from) in to.steps.iter_mut().zip(&from.steps) {
+            to.stored = A::Real::select(mask, to.stored, from.stored);
+        }
     }
 }
 
 /// Takes the answers of the tangents of another state where a mask says so.
 #[inline(always)]
-pub(super) fn take_answers<R: Real, const M: usize, const L: usize, const N: usize>(
+fn take_answers<R: Real, const M: usize, const L: usize, const N: usize>(
     mask: R::Mask,
     from: &State<R, M, L, N>,
     to: &mut State<R, M, L, N>,

@@ -11,7 +11,7 @@ use super::record::Record;
 use super::show::show;
 use super::small::Aligned;
 use super::state::State;
-use trilith_element::lanes::{Arithmetic, Real};
+use trilith_element::lanes::{Arithmetic, Real, Task};
 
 /// What a step leaves to be accounted for.
 pub(super) struct Passed<R, const M: usize> {
@@ -24,7 +24,7 @@ pub(super) struct Passed<R, const M: usize> {
 impl<R: Real, const M: usize> Passed<R, M> {
     /// Nothing yet.
     pub fn new(zero: R) -> Self {
-        Self { t: zero, of_modes: Aligned([[zero; M]; 4]) }
+        Self { t: zero, of_modes: Aligned::full_of(zero) }
     }
 
     /// Work that the links took.
@@ -154,5 +154,39 @@ pub(super) fn account<A: Arithmetic, const M: usize, const L: usize, const N: us
         contacts(with, plan, state, record);
         record.feet.enter(&record.contacts, &plan.feet);
         record.feet.press(&record.contacts, &plan.others);
+    }
+}
+
+/// What [`account`] does, by a call: there is one of it for all who need it off the way of a usual step.
+#[inline(never)]
+pub(super) fn account_apart<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
+    with: A,
+    plan: &Plan<A::Real, M, L, N>,
+    rule: &Rule<A::Real, M, L>,
+    passed: &Passed<A::Real, M>,
+    state: &State<A::Real, M, L, N>,
+    record: &mut Record<A::Real>,
+) {
+    with.run(Account { plan, rule, passed, state, record });
+}
+
+/// What [`account`] does, as a task.
+struct Account<'a, R: Real, const M: usize, const L: usize, const N: usize> {
+    plan: &'a Plan<R, M, L, N>,
+    rule: &'a Rule<R, M, L>,
+    passed: &'a Passed<R, M>,
+    state: &'a State<R, M, L, N>,
+    record: &'a mut Record<R>,
+}
+
+impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
+    for Account<'_, A::Real, M, L, N>
+{
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self, with: A) {
+        let Self { plan, rule, passed, state, record } = self;
+        account(with, plan, rule, passed, state, record);
     }
 }

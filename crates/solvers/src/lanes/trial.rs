@@ -3,13 +3,13 @@
 use super::coefficients::Rule;
 use super::error::{Norms, Tried};
 use super::loads::{Loads, Points};
-use super::newton::{Found, foresee, foresee_by_tangents, settle};
-use super::pieces::Behind;
+use super::newton::{Found, foresee_by_tangents, settle};
+use super::pieces::look_behind;
 use super::plan::Plan;
-use super::record::{Record, TakeRecord};
+use super::record::{Record, take_record};
 use super::rules::Rules;
 use super::state::State;
-use super::step::{Passed, account, take};
+use super::step::{Passed, account_apart, take};
 use super::turning::{Asked, Turned, turned};
 use trilith_element::lanes::{Arithmetic, Real, Task};
 
@@ -60,42 +60,51 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Trial<R, M, L, N> 
         let Self { whole, halves: [first, second], found, passed, asked, .. } = self;
         let [p0, p1, p2] = passed;
         let (of_whole, [of_first, of_second]) = (&loads.whole, &loads.halves);
-        let (w0, _) = with.run(Make {
-            plan,
-            by: By::Links(rules),
-            loads: of_whole,
-            t: start,
-            who,
-            from: at,
-            to: whole,
-            found,
-            passed: p0,
-            asked: None,
-        });
-        let (w1, before) = with.run(Make {
-            plan,
-            by: By::Links(of_halves),
-            loads: of_first,
-            t: start,
-            who,
-            from: at,
-            to: first,
-            found,
-            passed: p1,
-            asked: Some(asked),
-        });
-        let (w2, behind) = with.run(Make {
-            plan,
-            by: By::Links(of_halves),
-            loads: of_second,
-            t: middle,
-            who,
-            from: first,
-            to: second,
-            found,
-            passed: p2,
-            asked: Some(asked),
-        });
+        let (w0, _) = make(
+            with,
+            Make {
+                plan,
+                by: By::Links(rules),
+                loads: of_whole,
+                t: start,
+                who,
+                from: at,
+                to: whole,
+                found,
+                passed: p0,
+                asked: None,
+            },
+        );
+        let (w1, before) = make(
+            with,
+            Make {
+                plan,
+                by: By::Links(of_halves),
+                loads: of_first,
+                t: start,
+                who,
+                from: at,
+                to: first,
+                found,
+                passed: p1,
+                asked: Some(asked),
+            },
+        );
+        let (w2, behind) = make(
+            with,
+            Make {
+                plan,
+                by: By::Links(of_halves),
+                loads: of_second,
+                t: middle,
+                who,
+                from: first,
+                to: second,
+                found,
+                passed: p2,
+                asked: Some(asked),
+            },
+        );
         let wrong = w0 | w1 | w2;
         self.missed = before.energy + behind.energy;
         for kind in 0..2 {
@@ -125,18 +134,18 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Trial<R, M, L, N> 
         let Self { halves, before, passed: [_, first, second], .. } = self;
         let zero = with.splat(0.0);
         if !all {
-            with.run(TakeRecord { mask: zero.le(zero), from: record, to: before });
+            take_record(with, zero.le(zero), record, before);
         }
         // Of the others it is rubbish, and forgotten.
         for (made, passed) in halves.iter().zip([first, second]) {
-            with.run(Enter { plan, rule: half.exact(), made, passed, record });
+            account_apart(with, plan, half.exact(), passed, made, record);
             norms.see(ok, record.in_motion());
         }
         if !all {
-            with.run(TakeRecord { mask: !ok, from: before, to: record });
+            take_record(with, !ok, before, record);
         }
         let some = (!all).then_some(ok);
-        with.run(Follow { plan, some, made: &halves[1], at });
+        follow(with, plan, some, &halves[1], at);
         norms.reach(plan, ok, at);
     }
 
@@ -150,8 +159,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Trial<R, M, L, N> 
     ) {
         let before = &(at.clone(), record.clone());
         at.amplitudes.copy_from_slice(&loads.start);
-        let load = &loads.whole.start;
-        with.run(Behind { plan, load, t, who: jumps, before, state: at, record });
+        look_behind(with, plan, &loads.whole.start, (jumps, t), before, (at, record));
     }
 
     /// Evaluations of the link laws.
@@ -161,11 +169,19 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Trial<R, M, L, N> 
     }
 }
 
-/// What a step goes by: the rule that its links ask for, where all steps have other lengths; or a given one, as in usual
-/// steps, where the answers of the tangents are kept for the next.
+/// What a step goes by: the rule that its links ask for, or a given one.
 pub(super) enum By<'a, R: Real, const M: usize, const L: usize> {
     Links(&'a mut Rules<R, M, L>),
     Given(&'a Rule<R, M, L>),
+}
+
+/// Makes one step.
+#[inline(never)]
+pub(super) fn make<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
+    with: A,
+    step: Make<'_, A::Real, M, L, N>,
+) -> (<A::Real as Real>::Mask, Turned<A::Real>) {
+    with.run(step)
 }
 
 /// One step into `to`, as a task; gives back who has found no equilibrium, and what a half has missed.
@@ -193,18 +209,13 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
     fn run(self, with: A) -> Self::Output {
         let Self { plan, by, loads, t, who, from, to, found, passed, asked } = self;
         to.start_from(from, plan);
-        let (rule, kept) = match by {
-            By::Links(rules) => (rules.choose(plan, from), false),
-            By::Given(rule) => (rule, true),
+        let rule = match by {
+            By::Links(rules) => rules.choose(plan, from),
+            By::Given(rule) => rule,
         };
-        if kept {
-            to.answer = from.answer;
-            to.answer_to_rate = from.answer_to_rate;
-            foresee(plan, rule, loads, from, found);
-        } else {
-            foresee_by_tangents(plan, rule, loads, from, found);
-        }
-        settle(with, plan, rule, (who, kept), to, found);
+        // What the tangents answered in the step before holds for its length alone.
+        foresee_by_tangents(plan, rule, loads, from, found);
+        settle(with, plan, rule, (who, false), to, found);
         take(plan, rule, (loads, t), found, to, passed);
         to.stiffen(plan);
         let turned = match asked {
@@ -215,33 +226,24 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
     }
 }
 
-/// A step that led to a state enters the record, as a task.
-pub(super) struct Enter<'a, R: Real, const M: usize, const L: usize, const N: usize> {
-    pub plan: &'a Plan<R, M, L, N>,
-    pub rule: &'a Rule<R, M, L>,
-    pub made: &'a State<R, M, L, N>,
-    pub passed: &'a Passed<R, M>,
-    pub record: &'a mut Record<R>,
+/// A state that was made is where the analyses are: some of them, or all.
+#[inline(never)]
+pub(super) fn follow<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
+    with: A,
+    plan: &Plan<A::Real, M, L, N>,
+    some: Option<<A::Real as Real>::Mask>,
+    made: &State<A::Real, M, L, N>,
+    at: &mut State<A::Real, M, L, N>,
+) {
+    with.run(Follow { plan, some, made, at });
 }
 
-impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
-    for Enter<'_, A::Real, M, L, N>
-{
-    type Output = ();
-
-    #[inline(always)]
-    fn run(self, with: A) {
-        let Self { plan, rule, made, passed, record } = self;
-        account(with, plan, rule, passed, made, record);
-    }
-}
-
-/// A state that was made is where the analyses are, as a task: some of them, or all.
-pub(super) struct Follow<'a, R: Real, const M: usize, const L: usize, const N: usize> {
-    pub plan: &'a Plan<R, M, L, N>,
-    pub some: Option<R::Mask>,
-    pub made: &'a State<R, M, L, N>,
-    pub at: &'a mut State<R, M, L, N>,
+/// What [`follow`] does, as a task.
+struct Follow<'a, R: Real, const M: usize, const L: usize, const N: usize> {
+    plan: &'a Plan<R, M, L, N>,
+    some: Option<R::Mask>,
+    made: &'a State<R, M, L, N>,
+    at: &'a mut State<R, M, L, N>,
 }
 
 impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
