@@ -6,18 +6,18 @@
 
 use crate::exercise;
 use crate::failure::Failure;
+use crate::plain::Plain;
 use crate::work;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::PyTuple;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 use trilith::Registry;
+use trilith::element::Stroke;
 use trilith::element::conformance::Kit;
-use trilith::element::{Energy, Kinematics, Response, Stroke};
 use trilith_cli::told;
 use trilith_foreign::{Compiled, Declaration, Kind, LawFunction, Library, NoAnswer};
 
@@ -93,10 +93,10 @@ static ENDING: AtomicBool = AtomicBool::new(false);
 /// Nobody waits for laws any more: whoever would need the interpreter's lock from now on must not ask for it.
 static OVER: AtomicBool = AtomicBool::new(false);
 
-struct Call;
+pub(crate) struct Call;
 
 impl Call {
-    fn begin() -> Option<Self> {
+    pub fn begin() -> Option<Self> {
         CALLS.fetch_add(1, Ordering::SeqCst);
         let call = Self;
         (!ENDING.load(Ordering::SeqCst)).then_some(call)
@@ -134,34 +134,8 @@ pub(crate) fn raised(py: Python<'_>, text: &str) -> Option<PyErr> {
     found.map(|(_, e)| e.clone_ref(py))
 }
 
-/// A law in Python, by an object with the methods of `trilith._law.Plain`.
-#[derive(Debug)]
-struct Plain(Py<PyAny>);
-
-/// Force and history; tangents by deformation and by rate; energies.
-type Answered = (Vec<f64>, Vec<f64>, Vec<f64>, Vec<f64>, [f64; 3]);
-
-impl Plain {
-    fn ask<T>(&self, ask: impl FnOnce(&Bound<'_, PyAny>) -> PyResult<T>) -> Result<T, NoAnswer> {
-        let ended = || NoAnswer::Failed("the interpreter has come to its end".into());
-        let _call = Call::begin().ok_or_else(ended)?;
-        let answer = Python::try_attach(|py| {
-            let law = self.0.bind(py);
-            ask(law).map_err(|e| no_answer(py, law, e))
-        });
-        answer.unwrap_or_else(|| Err(ended()))
-    }
-
-    /// The same where there is nothing to be refused but with words.
-    fn tell<T>(&self, ask: impl FnOnce(&Bound<'_, PyAny>) -> PyResult<T>) -> Result<T, String> {
-        self.ask(ask).map_err(|no| match no {
-            NoAnswer::Refused(text) | NoAnswer::Failed(text) => text,
-        })
-    }
-}
-
 /// What an exception means, in words that `Plain.words` finds for it.
-fn no_answer(py: Python<'_>, law: &Bound<'_, PyAny>, e: PyErr) -> NoAnswer {
+pub(crate) fn no_answer(py: Python<'_>, law: &Bound<'_, PyAny>, e: PyErr) -> NoAnswer {
     let words = law.call_method1("words", (e.value(py), e.traceback(py)));
     let words = words.and_then(|words| words.extract::<(bool, String)>());
     let (refused, text) = words.unwrap_or_else(|_| (false, e.to_string()));
@@ -174,84 +148,6 @@ fn no_answer(py: Python<'_>, law: &Bound<'_, PyAny>, e: PyErr) -> NoAnswer {
     }
     all.push((text.clone(), e));
     NoAnswer::Failed(text)
-}
-
-/// What a law is asked, as Python has it.
-fn question<'py>(
-    py: Python<'py>,
-    parameters: &[f64],
-    at: &Kinematics<'_>,
-    committed: &[f64],
-) -> PyResult<Bound<'py, PyTuple>> {
-    let list = |x: &[f64]| PyTuple::new(py, x);
-    let rates = (list(at.v)?, list(at.v0)?);
-    (list(parameters)?, list(at.d)?, rates.0, list(at.d0)?, rates.1, at.dt, list(committed)?)
-        .into_pyobject(py)
-}
-
-/// Copies a list whose length `Plain` has looked at.
-fn copy(from: &[f64], to: &mut [f64]) {
-    to.iter_mut().zip(from).for_each(|(to, from)| *to = *from);
-}
-
-impl LawFunction for Plain {
-    fn respond(
-        &self,
-        parameters: &[f64],
-        at: &Kinematics<'_>,
-        committed: &[f64],
-        trial: &mut [f64],
-        out: &mut Response<'_>,
-    ) -> Result<(), NoAnswer> {
-        let (f, history, k, c, [stored, hysteretic, viscous]) = self.ask(|law| {
-            let question = question(law.py(), parameters, at, committed)?;
-            law.call_method1("respond", question)?.extract::<Answered>()
-        })?;
-        copy(&f, out.f);
-        copy(&history, trial);
-        copy(&k, out.k);
-        copy(&c, out.c);
-        *out.energy = Energy::new(stored, hysteretic, viscous);
-        Ok(())
-    }
-
-    fn force(
-        &self,
-        parameters: &[f64],
-        at: &Kinematics<'_>,
-        committed: &[f64],
-        trial: &mut [f64],
-        out: &mut Response<'_>,
-    ) -> Result<(), NoAnswer> {
-        let (f, history) = self.ask(|law| {
-            let question = question(law.py(), parameters, at, committed)?;
-            law.call_method1("force", question)?.extract::<(Vec<f64>, Vec<f64>)>()
-        })?;
-        copy(&f, out.f);
-        copy(&history, trial);
-        Ok(())
-    }
-
-    fn check(&self, parameters: &[f64]) -> Result<(), String> {
-        self.tell(|law| law.call_method1("check", (PyTuple::new(law.py(), parameters)?,)).map(drop))
-    }
-
-    fn engaged(&self, parameters: &[f64], k: &mut [f64]) -> Result<bool, String> {
-        let given = self.tell(|law| {
-            let given = law.call_method1("engaged", (PyTuple::new(law.py(), parameters)?,))?;
-            given.extract::<Option<Vec<f64>>>()
-        })?;
-        Ok(given.inspect(|given| copy(given, k)).is_some())
-    }
-
-    fn at_rest(&self, parameters: &[f64], history: &mut [f64]) -> Result<(), String> {
-        let given = self.tell(|law| {
-            let given = law.call_method1("at_rest", (PyTuple::new(law.py(), parameters)?,))?;
-            given.extract::<Option<Vec<f64>>>()
-        })?;
-        given.inspect(|given| copy(given, history));
-        Ok(())
-    }
 }
 
 fn declaration(text: &str) -> Result<Declaration, Failure> {
@@ -275,7 +171,7 @@ impl Law {
     #[staticmethod]
     fn plain(py: Python<'_>, text: &str, function: Py<PyAny>, digest: String) -> PyResult<Self> {
         let declaration = declaration(text).map_err(|e| e.into_exception(py))?;
-        made(py, &declaration, Arc::new(Plain(function)), digest)
+        made(py, &declaration, Arc::new(Plain::new(py, function)?), digest)
     }
 
     /// A law that was compiled, by its address, which is good as long as `keep` is there; and the same in Python, which says
@@ -290,9 +186,9 @@ impl Law {
         digest: String,
     ) -> PyResult<Self> {
         let declaration = declaration(text).map_err(|e| e.into_exception(py))?;
-        let plain = Plain(function);
+        let plain = Plain::new(py, function.clone_ref(py))?;
         // The lengths are known once the declaration is understood.
-        let sizes = Kind::new(&declaration, Arc::new(Plain(plain.0.clone_ref(py))))
+        let sizes = Kind::new(&declaration, Arc::new(Plain::new(py, function)?))
             .map_err(|e| Failure::argument(&e.to_string(), None).into_exception(py))?
             .sizes();
         // SAFETY: `trilith._compiled`, the only caller, compiles a function of this signature for these lengths, which holds no

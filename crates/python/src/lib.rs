@@ -22,6 +22,7 @@ mod links;
 mod model;
 mod modes;
 mod optimize;
+mod plain;
 mod record;
 mod reduce;
 mod run;

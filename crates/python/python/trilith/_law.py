@@ -263,7 +263,8 @@ def _source(method: Any) -> str:
 
 
 class Plain:
-    """A law for the library, which calls :meth:`respond` and its like with tuples of numbers."""
+    """A law for the library, which calls the methods of the law itself, and those of this one for what is not done for each answer
+    and for answers that are no plain numbers."""
 
     def __init__(self, law: type[Law]) -> None:
         import numpy as np
@@ -292,8 +293,6 @@ class Plain:
         tuple_of: Any = namedtuple
         self.values = tuple_of(self.kind, list(self.parameters))
         self.memory = tuple_of("History", list(law.history))
-        self._array = np.array
-        self._number = {float, int, np.float64}
         self._asarray = np.asarray
         self._ready: dict[tuple[float, ...], Law] = {}
 
@@ -351,7 +350,7 @@ class Plain:
 
     # -- what the library calls
 
-    def _at(self, p: tuple[float, ...]) -> Any:
+    def at(self, p: tuple[float, ...]) -> Any:
         """The law with these parameters."""
         it = self._ready.get(p)
         if it is None:
@@ -362,23 +361,8 @@ class Plain:
             self._ready[p] = it
         return it
 
-    def _asked(
-        self, name: str, it: Any, d: Any, v: Any, d0: Any, v0: Any, dt: float, history: Any, history0: Any
-    ) -> Any:
-        method = getattr(it, name)
-        if self.stepped[name]:
-            return method(d, v, history, LawStep(self._array(d0), self._array(v0), dt, history0))
-        return method(d, v, history)
-
-    def force(
-        self, p: Any, d: Any, v: Any, d0: Any, v0: Any, dt: float, h: Any
-    ) -> tuple[list[float], list[float]]:
-        """Forces and the history at the end of the step."""
-        memory = self.memory(*h)
-        given = self._asked("force", self._at(p), self._array(d), self._array(v), d0, v0, dt, memory, memory)
-        return self._split(given)
-
-    def _split(self, given: Any) -> tuple[list[float], list[float]]:
+    def forces(self, given: Any) -> tuple[list[float], list[float]]:
+        """Forces and the history at the end of the step, of what ``force`` has returned."""
         if self.h == 0:
             return self._numbers("force", "a force", given, (self.n,)), []
         if not (isinstance(given, tuple) and len(given) == 2):
@@ -389,60 +373,40 @@ class Plain:
         f, new = given
         return self._numbers("force", "a force", f, (self.n,)), self._numbers("force", "a history", new, (self.h,))
 
-    def respond(
-        self, p: Any, d: Any, v: Any, d0: Any, v0: Any, dt: float, h: Any
-    ) -> tuple[list[float], list[float], list[float], list[float], tuple[float, float, float]]:
-        """All that it tells; what it does not tell is empty."""
-        it, memory = self._at(p), self.memory(*h)
-        d_, v_ = self._array(d), self._array(v)
-        f, new = self._split(self._asked("force", it, d_, v_, d0, v0, dt, memory, memory))
-        k: list[float] = []
-        c: list[float] = []
-        if "tangent" in self.stepped:
-            given = self._asked("tangent", it, d_, v_, d0, v0, dt, memory, memory)
-            if self.law.rates:
-                if not (isinstance(given, tuple) and len(given) == 2):
-                    raise TypeError(
-                        f"{self.kind}.tangent must return two matrices, ∂f/∂d and ∂f/∂v: it returned {_shown(given)}"
-                    )
-                k = self._numbers("tangent", "∂f/∂d", given[0], (self.n, self.n))
-                c = self._numbers("tangent", "∂f/∂v", given[1], (self.n, self.n))
-            else:
-                k = self._numbers("tangent", "∂f/∂d", given, (self.n, self.n))
-        energy = (0.0, 0.0, 0.0)
-        if "energy" in self.stepped:
-            end = self.memory(*new)
-            given = self._asked("energy", it, d_, v_, d0, v0, dt, end, memory)
-            stored, hysteretic, viscous = self._numbers("energy", "stored energy and heat", given, (3,))
-            energy = (stored, hysteretic, viscous)
-        return f, new, k, c, energy
+    def tangents(self, given: Any) -> tuple[list[float], list[float]]:
+        """The tangents by deformations and by rates, of what ``tangent`` has returned."""
+        if not self.law.rates:
+            return self._numbers("tangent", "∂f/∂d", given, (self.n, self.n)), []
+        if not (isinstance(given, tuple) and len(given) == 2):
+            raise TypeError(
+                f"{self.kind}.tangent must return two matrices, ∂f/∂d and ∂f/∂v: it returned {_shown(given)}"
+            )
+        k = self._numbers("tangent", "∂f/∂d", given[0], (self.n, self.n))
+        return k, self._numbers("tangent", "∂f/∂v", given[1], (self.n, self.n))
+
+    def energies(self, given: Any) -> list[float]:
+        """Stored energy and heat, of what ``energy`` has returned."""
+        return self._numbers("energy", "stored energy and heat", given, (3,))
 
     def check(self, p: tuple[float, ...]) -> None:
         """Raises where parameters do not go together."""
         if "check" in self.stepped:
-            self._at(p).check()
+            self.at(p).check()
 
     def engaged(self, p: tuple[float, ...]) -> list[float] | None:
         """The engaged stiffness, where it says."""
         if "engaged" not in self.stepped:
             return None
-        return self._numbers("engaged", "a stiffness", self._at(p).engaged(), (self.n, self.n))
+        return self._numbers("engaged", "a stiffness", self.at(p).engaged(), (self.n, self.n))
 
     def at_rest(self, p: tuple[float, ...]) -> list[float] | None:
         """The history before anything has happened, where it says."""
         if "at_rest" not in self.stepped:
             return None
-        return self._numbers("at_rest", "a history", self._at(p).at_rest(), (self.h,))
+        return self._numbers("at_rest", "a history", self.at(p).at_rest(), (self.h,))
 
     def _numbers(self, method: str, what: str, value: Any, shape: tuple[int, ...]) -> list[float]:
         """Numbers of a shape, row by row; one will do for one."""
-        # What most laws return, without an array.
-        kind = type(value)
-        if kind in self._number:
-            if shape in ONE:
-                return [float(value)]
-        elif kind is tuple and shape == (len(value),) and self._number.issuperset(map(type, value)):
-            return list(map(float, value))
         try:
             it = self._asarray(value, dtype=float)
         except (TypeError, ValueError) as e:
