@@ -175,8 +175,7 @@ fn walk<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
     }
 }
 
-/// What outputs are where loads have jumped, of the analyses in `who` at their times; of the others the record of before
-/// stays.
+/// What outputs are where loads have jumped, of the analyses in `who` at their times; the others stay as they were before.
 #[inline(never)]
 pub(super) fn look_behind<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
     with: A,
