@@ -35,7 +35,11 @@ impl<'n> Fields<'n> {
     }
 
     /// A number in SI.
-    pub(crate) fn number(&self, c: &Context<'_>, key: &str) -> Option<f64> {
+    ///
+    /// # Panics
+    /// Where the schema does not declare it so.
+    #[must_use]
+    pub fn number(&self, c: &Context<'_>, key: &str) -> Option<f64> {
         let Takes::Number(dimension, range) = self.declared(key).takes else {
             unreachable!("the schema declares `{key}` as a number")
         };
@@ -49,7 +53,11 @@ impl<'n> Fields<'n> {
     }
 
     /// A whole number.
-    pub(crate) fn count(&self, c: &Context<'_>, key: &str) -> Option<usize> {
+    ///
+    /// # Panics
+    /// Where the schema does not declare it so.
+    #[must_use]
+    pub fn count(&self, c: &Context<'_>, key: &str) -> Option<usize> {
         let Takes::Count(least) = self.declared(key).takes else {
             unreachable!("the schema declares `{key}` as a count")
         };
@@ -62,7 +70,11 @@ impl<'n> Fields<'n> {
     }
 
     /// True or false.
-    pub(crate) fn flag(&self, c: &Context<'_>, key: &str) -> Option<bool> {
+    ///
+    /// # Panics
+    /// Where the schema does not declare it so.
+    #[must_use]
+    pub fn flag(&self, c: &Context<'_>, key: &str) -> Option<bool> {
         self.value(c, key, |node| c.flag(node, key), |text| text.parse().ok())
     }
 

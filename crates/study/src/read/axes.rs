@@ -141,7 +141,7 @@ fn along(c: &Context<'_>, e: &Entry) -> Option<Vec<(String, Span)>> {
     let none = trilith::element::dimension::NONE;
     let dimension: Dimension = if from.measured { from.dimension } else { none };
     let count = match (fields.get("count"), fields.get("step")) {
-        (Some(n), None) => c.count(n, "count", 1)?,
+        (Some(_), None) => fields.count(c, "count")?,
         (None, Some(n)) => {
             let step = c.in_dimension(n, c.quantity(n)?, dimension)?;
             let steps = (to.value - from.value) / step;

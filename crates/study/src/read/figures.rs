@@ -3,8 +3,7 @@
 use super::names::Names;
 use crate::column::Known;
 use crate::{Drawing, schema};
-use trilith::element::Range;
-use trilith::element::dimension::{FREQUENCY, NONE};
+use trilith::element::dimension::FREQUENCY;
 use trilith::model::Model;
 use trilith::model::file::{Context, Fields, Kind, Node, evaluate, expression_diagnostic};
 
@@ -53,10 +52,7 @@ fn figure(c: &Context<'_>, node: &Node, names: &Names<'_>, model: &Model) -> Opt
             let intensity = number("intensity");
             let event =
                 fields.required(c, "event").and_then(|n| super::columns::condition(c, n, names));
-            let confidence = fields.get("confidence").map_or(Some(0.9), |n| {
-                let range = Range::Within(0.5, 0.999);
-                c.ranged(n, "confidence", NONE, range)
-            });
+            let confidence = fields.number(c, "confidence");
             let by = by();
             Some(Drawing::Fragility {
                 intensity: intensity?,
@@ -67,7 +63,7 @@ fn figure(c: &Context<'_>, node: &Node, names: &Names<'_>, model: &Model) -> Opt
         }
         3 => {
             let (frequency, amplitude) = (number("frequency"), number("amplitude"));
-            let half_sine = fields.get("half_sine").map_or(Some(false), |n| c.flag(n, "half_sine"));
+            let half_sine = fields.flag(c, "half_sine");
             Some(Drawing::Overturning {
                 frequency: frequency?,
                 amplitude: amplitude?,

@@ -75,7 +75,7 @@ fn whole(
 ) -> Option<Study> {
     let top = c.block(root, "the study", schema::STUDY.blocks[0])?;
     let title = top.get("title").map_or(Some(String::new()), |n| c.text(n, "title"));
-    let seed = top.get("seed").map_or(Some(1), |n| c.count(n, "seed", 0));
+    let seed = top.count(c, "seed");
 
     let mut settings = Settings::default();
     let mut plan = Plan {
@@ -163,10 +163,7 @@ fn whole(
     let histories = top.get("histories").map(|n| columns::condition(c, n, &names));
     let events = top.get("events").map_or(Some(Vec::new()), |n| columns::events(c, n, &names));
     let over = top.get("over").map_or(Some(Vec::new()), |n| over(c, n, &plan));
-    let sensitive = top.get("sensitive_above").map_or(Some(10.0), |n| {
-        let dimension = trilith::element::dimension::NONE;
-        c.ranged(n, "sensitive_above", dimension, trilith::element::Range::Positive)
-    });
+    let sensitive = top.number(c, "sensitive_above");
     let figures =
         top.get("figures").map_or(Some(Vec::new()), |n| figures::figures(c, n, &names, &model));
     let runs = plan.runs().filter(|runs| *runs <= MOST);

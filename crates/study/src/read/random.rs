@@ -89,8 +89,7 @@ fn distribution(c: &Context<'_>, e: &Entry) -> Option<(Distribution, Dimension)>
             Distribution::Normal { mean: q.value, deviation: deviation??, from, to }
         }
         _ => {
-            let spread = fields.required(c, "dispersion")?;
-            let dispersion = c.ranged(spread, "dispersion", NONE, Range::Positive);
+            let dispersion = fields.number(c, "dispersion");
             let (from, to) = (same("from", Range::Positive)?, same("to", Range::Positive)?);
             let (from, to) = (from.unwrap_or(0.0), to.unwrap_or(f64::INFINITY));
             if q.value <= 0.0 {
