@@ -159,26 +159,18 @@ fn table(model: &trilith::Model, outcomes: &[Result<Outcome, SweepError>]) -> Ta
 
 /// In the order of [`NUMBERS`].
 fn of(o: &Outcome, contact: Option<&ContactSummary>) -> [f64; NUMBERS.len()] {
-    let e = &o.energy;
     let of_contact = |value: fn(&ContactSummary) -> f64| contact.map_or(f64::NAN, value);
-    [
-        e.input,
-        e.kinetic,
-        e.strain,
-        e.potential,
-        e.modal_damping,
-        e.link_stored,
-        e.link_hysteretic,
-        e.link_viscous,
-        e.algorithmic,
-        e.error,
-        e.error_relative,
+    let mut all = [0.0; NUMBERS.len()];
+    let (energies, more) = all.split_at_mut(11);
+    energies.copy_from_slice(&o.energy.values());
+    more.copy_from_slice(&[
         o.steps as f64,
         o.iterations as f64,
         of_contact(|c| c.max_uplift),
         of_contact(|c| c.max_slip),
         of_contact(|c| c.residual_slip),
-    ]
+    ]);
+    all
 }
 
 fn failed(error: &SweepError, model: &trilith::Model) -> (&'static str, String) {

@@ -157,16 +157,6 @@ impl Observer for Recorder {
 
 /// In the order of [`ENERGIES`].
 fn energies(e: &EnergyTotals) -> [f64; ENERGIES.len()] {
-    [
-        e.input,
-        e.kinetic,
-        e.strain,
-        e.potential,
-        e.modal_damping,
-        e.link_stored,
-        e.link_hysteretic,
-        e.link_viscous,
-        e.algorithmic,
-        e.error,
-    ]
+    let [energies @ .., _] = e.values();
+    energies
 }

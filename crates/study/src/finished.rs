@@ -46,7 +46,6 @@ impl Finished {
         peaks: impl Iterator<Item = Peak>,
         integrals: &[f64],
     ) -> Self {
-        let e = energy;
         let message = match status {
             Status::Converged => String::new(),
             other => other.text(),
@@ -64,20 +63,7 @@ impl Finished {
                 slip: Number(c.max_slip),
                 residual_slip: Number(c.residual_slip),
             }),
-            energy: [
-                e.input,
-                e.kinetic,
-                e.strain,
-                e.potential,
-                e.modal_damping,
-                e.link_stored,
-                e.link_hysteretic,
-                e.link_viscous,
-                e.algorithmic,
-                e.error,
-                e.error_relative,
-            ]
-            .map(Number),
+            energy: energy.values().map(Number),
             peaks: peaks.map(|p| [p.max, p.t_max, p.min, p.t_min, p.last].map(Number)).collect(),
             integrals: integrals.iter().copied().map(Number).collect(),
         }

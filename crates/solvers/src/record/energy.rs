@@ -37,6 +37,26 @@ pub struct EnergyTotals {
     pub error_relative: f64,
 }
 
+impl EnergyTotals {
+    /// All of them, from the input to the relative error, in the order of the fields.
+    #[must_use]
+    pub fn values(&self) -> [f64; 11] {
+        [
+            self.input,
+            self.kinetic,
+            self.strain,
+            self.potential,
+            self.modal_damping,
+            self.link_stored,
+            self.link_hysteretic,
+            self.link_viscous,
+            self.algorithmic,
+            self.error,
+            self.error_relative,
+        ]
+    }
+}
+
 /// Energies at the start of a case, J; nothing in a static case.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, serde::Deserialize)]
 pub struct StartEnergy {
