@@ -14,13 +14,13 @@
 //! ratio p = c_y/c that of oil dampers in \[JSSI 2003\].
 
 use crate::shared::series::{Series, SeriesHistory, Split, Viscous};
-use crate::shared::written::Written;
+use crate::shared::written::{Written, answers_by_law};
 use serde::Deserialize;
 use std::borrow::Cow;
-use trilith_element::lanes::{LaneForm, Real};
+use trilith_element::lanes::Real;
 use trilith_element::{
-    Axis, Card, Category, Coordinates, Described, Exercise, Field, History, Kinematics, Link,
-    NodeCount, Parameters, Response, Stroke,
+    Axis, Card, Category, Coordinates, Described, Exercise, Field, History, Link, NodeCount,
+    Parameters, Stroke,
 };
 
 /// Spring in series with an oil damper with a relief valve.
@@ -96,24 +96,14 @@ impl Link for BilinearDamper {
         false
     }
 
-    fn respond(
-        &self,
-        at: &Kinematics<'_>,
-        committed: &[f64],
-        trial: &mut [f64],
-        out: &mut Response<'_>,
-    ) {
-        LAW.respond(&self.numbers(), (at, committed), trial, out);
-    }
-
-    fn lanes(&self, _: &[bool]) -> Option<LaneForm> {
-        Some(LAW.lanes(&self.numbers()))
-    }
+    answers_by_law!();
 }
 
-const LAW: Written = Written::of::<Series<Relieved>>();
-
 impl BilinearDamper {
+    fn law(&self) -> Written {
+        Written::of::<Series<Relieved>>()
+    }
+
     fn numbers(&self) -> [f64; 4] {
         [self.k, self.c, self.cy, self.fl]
     }

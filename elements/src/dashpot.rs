@@ -16,12 +16,12 @@
 
 use crate::shared::restitution::damping_ratio;
 use crate::shared::touch::strike;
-use crate::shared::written::Written;
+use crate::shared::written::{Written, answers_by_law};
 use serde::Deserialize;
-use trilith_element::lanes::{LaneAt, LaneForce, LaneForm, LaneLaw, LaneStep, Real};
+use trilith_element::lanes::{LaneAt, LaneForce, LaneLaw, LaneStep, Real};
 use trilith_element::{
     Axis, Card, Category, Choices, Contact, ContactUse, Coordinates, Described, Exercise, Impact,
-    Kinematics, Link, NodeCount, ParameterError, Parameters, Response, Stroke,
+    Kinematics, Link, NodeCount, ParameterError, Parameters, Stroke,
 };
 
 /// When a [`Dashpot`] acts.
@@ -227,17 +227,11 @@ impl Link for Dashpot {
         k[0] = if self.when == When::InContact { self.stiffness } else { 0.0 };
     }
 
-    fn respond(&self, at: &Kinematics<'_>, _: &[f64], _: &mut [f64], out: &mut Response<'_>) {
-        self.law().respond(&self.numbers(), (at, &[]), &mut [], out);
-    }
+    answers_by_law!();
 
     fn damping_constant(&self) -> Option<f64> {
         let linear = self.when == When::Always && self.exponent == 1.0;
         self.coefficient().filter(|_| linear)
-    }
-
-    fn lanes(&self, _: &[bool]) -> Option<LaneForm> {
-        Some(self.law().lanes(&self.numbers()))
     }
 
     fn impact(&self) -> Option<Impact> {

@@ -19,13 +19,13 @@
 //!
 //! Reference: \[Simo & Hughes 1998, §3.3\] (the return); \[Naeim & Kelly 1999, ch. 4\] (bearings as bilinear).
 
-use crate::shared::written::Written;
+use crate::shared::written::{Written, answers_by_law};
 use serde::Deserialize;
 use std::borrow::Cow;
-use trilith_element::lanes::{LaneAt, LaneForce, LaneForm, LaneLaw, LaneStep, Real};
+use trilith_element::lanes::{LaneAt, LaneForce, LaneLaw, LaneStep, Real};
 use trilith_element::{
-    Axis, Card, Category, Coordinates, Described, Exercise, Field, History, Kinematics, Link,
-    NodeCount, ParameterError, Parameters, Response, Stroke, history,
+    Axis, Card, Category, Coordinates, Described, Exercise, Field, History, Link, NodeCount,
+    ParameterError, Parameters, Stroke, history,
 };
 
 /// Bearing with bilinear shear coupled in its plane.
@@ -76,8 +76,6 @@ impl Described for ElastomericBearing {
     }
 }
 
-const LAW: Written = Written::of::<BearingLaw>();
-
 impl Link for ElastomericBearing {
     fn coordinates(&self) -> Coordinates {
         Coordinates::Local(vec![Axis::U2, Axis::U3])
@@ -95,22 +93,14 @@ impl Link for ElastomericBearing {
         (k[0], k[3]) = (self.k, self.k);
     }
 
-    fn respond(
-        &self,
-        at: &Kinematics<'_>,
-        committed: &[f64],
-        trial: &mut [f64],
-        out: &mut Response<'_>,
-    ) {
-        LAW.respond(&self.numbers(), (at, committed), trial, out);
-    }
-
-    fn lanes(&self, _: &[bool]) -> Option<LaneForm> {
-        Some(LAW.lanes(&self.numbers()).without_rate())
-    }
+    answers_by_law!();
 }
 
 impl ElastomericBearing {
+    fn law(&self) -> Written {
+        Written::of::<BearingLaw>().still()
+    }
+
     /// Parameters of the law: r k, (1 − r) k, (1 − r) f_y, 1/((1 − r) k).
     fn numbers(&self) -> [f64; 4] {
         let elastic = (1.0 - self.ratio) * self.k;

@@ -34,15 +34,14 @@
 
 use crate::shared::restitution::approach_ratio;
 use crate::shared::touch::TOUCH;
-use crate::shared::written::Written;
+use crate::shared::written::{Written, answers_by_law};
 use serde::Deserialize;
 use std::borrow::Cow;
 use std::sync::OnceLock;
-use trilith_element::lanes::{LaneAt, LaneContact, LaneForce, LaneForm, LaneLaw, LaneStep, Real};
+use trilith_element::lanes::{LaneAt, LaneContact, LaneForce, LaneLaw, LaneStep, Real};
 use trilith_element::{
     Axis, Card, Category, Choices, Contact, ContactUse, Coordinates, Described, Exercise, Field,
-    History, Impact, Kinematics, Link, NodeCount, ParameterError, Parameters, Response, Stroke,
-    history,
+    History, Impact, Kinematics, Link, NodeCount, ParameterError, Parameters, Stroke, history,
 };
 
 /// How an [`ImpactHertz`] dissipates.
@@ -325,19 +324,7 @@ impl Link for ImpactHertz {
         k[0] = self.exponent * self.k * TYPICAL.powf(self.exponent - 1.0);
     }
 
-    fn respond(
-        &self,
-        at: &Kinematics<'_>,
-        committed: &[f64],
-        trial: &mut [f64],
-        out: &mut Response<'_>,
-    ) {
-        self.law().respond(&self.numbers(), (at, committed), trial, out);
-    }
-
-    fn lanes(&self, _: &[bool]) -> Option<LaneForm> {
-        Some(self.law().lanes(&self.numbers()))
-    }
+    answers_by_law!();
 
     fn impact(&self) -> Option<Impact> {
         // Only a law that waits for a mass takes part: there is no linear stiffness to speak of.

@@ -24,12 +24,12 @@
 
 use crate::shared::restitution::{approach_ratio, damping_ratio};
 use crate::shared::touch::strike;
-use crate::shared::written::Written;
+use crate::shared::written::{Written, answers_by_law};
 use serde::Deserialize;
-use trilith_element::lanes::{LaneAt, LaneContact, LaneForce, LaneForm, LaneLaw, LaneStep, Real};
+use trilith_element::lanes::{LaneAt, LaneContact, LaneForce, LaneLaw, LaneStep, Real};
 use trilith_element::{
     Axis, Card, Category, Choices, Contact, ContactUse, Coordinates, Described, Exercise, Impact,
-    Kinematics, Link, NodeCount, ParameterError, Parameters, Response, Stroke,
+    Kinematics, Link, NodeCount, ParameterError, Parameters, Stroke,
 };
 
 /// When the dashpot of an [`ImpactKelvin`] acts.
@@ -164,13 +164,7 @@ impl Link for ImpactKelvin {
         k[0] = self.k;
     }
 
-    fn respond(&self, at: &Kinematics<'_>, _: &[f64], _: &mut [f64], out: &mut Response<'_>) {
-        self.law().respond(&self.numbers(), (at, &[]), &mut [], out);
-    }
-
-    fn lanes(&self, _: &[bool]) -> Option<LaneForm> {
-        Some(self.law().lanes(&self.numbers()))
-    }
+    answers_by_law!();
 
     fn impact(&self) -> Option<Impact> {
         Some(

@@ -25,15 +25,14 @@ mod law;
 mod tests;
 
 use crate::shared::bouc_wen_plane::{Coupling, Shape};
-use crate::shared::written::Written;
+use crate::shared::written::{Written, answers_by_law};
 use law::Law;
 use serde::Deserialize;
 use std::borrow::Cow;
 use std::f64::consts::PI;
-use trilith_element::lanes::LaneForm;
 use trilith_element::{
-    Axis, Card, Category, Coordinates, Described, Exercise, Field, History, Kinematics, Link,
-    NodeCount, ParameterError, Parameters, Response, Stroke, history,
+    Axis, Card, Category, Coordinates, Described, Exercise, Field, History, Link, NodeCount,
+    ParameterError, Parameters, Stroke, history,
 };
 
 /// Lead-rubber bearing with heating of its core.
@@ -195,19 +194,7 @@ impl Link for LeadRubber {
         false
     }
 
-    fn respond(
-        &self,
-        at: &Kinematics<'_>,
-        committed: &[f64],
-        trial: &mut [f64],
-        out: &mut Response<'_>,
-    ) {
-        self.law().respond(&self.numbers(), (at, committed), trial, out);
-    }
-
-    fn lanes(&self, _: &[bool]) -> Option<LaneForm> {
-        Some(self.law().lanes(&self.numbers()))
-    }
+    answers_by_law!();
 }
 
 impl LeadRubber {

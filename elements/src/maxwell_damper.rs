@@ -13,13 +13,13 @@
 
 use crate::shared::relaxation::{Followed, relax};
 use crate::shared::series::{self, Series, SeriesHistory, Split, Viscous};
-use crate::shared::written::Written;
+use crate::shared::written::{Written, answers_by_law};
 use serde::Deserialize;
 use std::borrow::Cow;
-use trilith_element::lanes::{LaneAt, LaneForm, Real};
+use trilith_element::lanes::{LaneAt, Real};
 use trilith_element::{
-    Axis, Card, Category, Coordinates, Described, Exercise, Field, History, Kinematics, Link,
-    NodeCount, Parameters, Response, Stroke,
+    Axis, Card, Category, Coordinates, Described, Exercise, Field, History, Link, NodeCount,
+    Parameters, Stroke,
 };
 
 /// Spring in series with a power-law dashpot.
@@ -160,19 +160,7 @@ impl Link for MaxwellDamper {
         false
     }
 
-    fn respond(
-        &self,
-        at: &Kinematics<'_>,
-        committed: &[f64],
-        trial: &mut [f64],
-        out: &mut Response<'_>,
-    ) {
-        self.law().respond(&self.numbers(), (at, committed), trial, out);
-    }
-
-    fn lanes(&self, _: &[bool]) -> Option<LaneForm> {
-        Some(self.law().lanes(&self.numbers()))
-    }
+    answers_by_law!();
 }
 
 impl MaxwellDamper {

@@ -26,14 +26,14 @@ mod project;
 #[cfg(test)]
 mod tests;
 
-use crate::shared::written::Written;
+use crate::shared::written::{Written, answers_by_law};
 use project::Projected;
 use serde::Deserialize;
 use std::borrow::Cow;
-use trilith_element::lanes::{LaneAt, LaneForce, LaneForm, LaneLaw, LaneStep, Real};
+use trilith_element::lanes::{LaneAt, LaneForce, LaneLaw, LaneStep, Real};
 use trilith_element::{
-    Axis, Card, Category, Coordinates, Described, Exercise, Field, History, Kinematics, Link,
-    NodeCount, ParameterError, Parameters, Response, Stroke, history,
+    Axis, Card, Category, Coordinates, Described, Exercise, Field, History, Link, NodeCount,
+    ParameterError, Parameters, Stroke, history,
 };
 
 /// Plastic hinge with interaction of axial force and both moments.
@@ -112,8 +112,6 @@ impl Described for PMMHinge {
     }
 }
 
-const LAW: Written = Written::of::<Law>();
-
 impl Link for PMMHinge {
     fn coordinates(&self) -> Coordinates {
         Coordinates::Local(vec![Axis::U1, Axis::R2, Axis::R3])
@@ -131,24 +129,16 @@ impl Link for PMMHinge {
         (k[0], k[4], k[8]) = (self.axial, self.bending2, self.bending3);
     }
 
-    fn respond(
-        &self,
-        at: &Kinematics<'_>,
-        committed: &[f64],
-        trial: &mut [f64],
-        out: &mut Response<'_>,
-    ) {
-        LAW.respond(&self.numbers(), (at, committed), trial, out);
-    }
-
-    fn lanes(&self, _: &[bool]) -> Option<LaneForm> {
-        Some(LAW.lanes(&self.numbers()).without_rate())
-    }
+    answers_by_law!();
 }
 
 const PARAMETERS: usize = 13;
 
 impl PMMHinge {
+    fn law(&self) -> Written {
+        Written::of::<Law>().still()
+    }
+
     /// r, (1 − r) k, (1 − r) S, exponents, κ.
     fn numbers(&self) -> [f64; PARAMETERS] {
         let k = [self.axial, self.bending2, self.bending3];

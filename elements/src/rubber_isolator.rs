@@ -28,13 +28,13 @@
 //! rubber isolator property\].
 
 use crate::shared::bouc_wen_plane::{self, Coupling, Shape, Shaped};
-use crate::shared::written::Written;
+use crate::shared::written::{Written, answers_by_law};
 use serde::Deserialize;
 use std::borrow::Cow;
-use trilith_element::lanes::{LaneAt, LaneForce, LaneForm, LaneLaw, LaneStep, Real};
+use trilith_element::lanes::{LaneAt, LaneForce, LaneLaw, LaneStep, Real};
 use trilith_element::{
-    Axis, Card, Category, Coordinates, Described, Exercise, Field, History, Kinematics, Link,
-    NodeCount, ParameterError, Parameters, Response, Stroke, history,
+    Axis, Card, Category, Coordinates, Described, Exercise, Field, History, Link, NodeCount,
+    ParameterError, Parameters, Stroke, history,
 };
 
 /// Bearing with coupled plastic shear.
@@ -143,19 +143,7 @@ impl Link for RubberIsolator {
         false
     }
 
-    fn respond(
-        &self,
-        at: &Kinematics<'_>,
-        committed: &[f64],
-        trial: &mut [f64],
-        out: &mut Response<'_>,
-    ) {
-        self.law().respond(&self.numbers(), (at, committed), trial, out);
-    }
-
-    fn lanes(&self, _: &[bool]) -> Option<LaneForm> {
-        Some(self.law().lanes(&self.numbers()))
-    }
+    answers_by_law!();
 }
 
 impl RubberIsolator {

@@ -28,13 +28,13 @@
 #[cfg(test)]
 mod tests;
 
-use crate::shared::written::Written;
+use crate::shared::written::{Written, answers_by_law};
 use serde::Deserialize;
 use std::borrow::Cow;
-use trilith_element::lanes::{LaneAt, LaneForce, LaneForm, LaneLaw, LaneStep, Real};
+use trilith_element::lanes::{LaneAt, LaneForce, LaneLaw, LaneStep, Real};
 use trilith_element::{
-    Axis, Card, Category, Choices, Coordinates, Described, Exercise, Field, History, Kinematics,
-    Link, NodeCount, ParameterError, Parameters, Response, Stroke, history,
+    Axis, Card, Category, Choices, Coordinates, Described, Exercise, Field, History, Link,
+    NodeCount, ParameterError, Parameters, Stroke, history,
 };
 
 /// First pressing of a [`SoilSpring`].
@@ -134,6 +134,10 @@ impl Described for SoilSpring {
 const PARAMETERS: usize = 9;
 
 impl SoilSpring {
+    fn law(&self) -> Written {
+        Written::of::<Law>().still()
+    }
+
     /// k, kᵤ, p_u, opening, soil upwards, soil downwards, sand, k_d, p_d.
     fn numbers(&self) -> [f64; PARAMETERS] {
         let one = |yes: bool| f64::from(u8::from(yes));
@@ -150,8 +154,6 @@ impl SoilSpring {
         ]
     }
 }
-
-const LAW: Written = Written::of::<Law>();
 
 impl Link for SoilSpring {
     fn coordinates(&self) -> Coordinates {
@@ -171,19 +173,7 @@ impl Link for SoilSpring {
         k[0] = self.ku.unwrap_or(self.k) + drag;
     }
 
-    fn respond(
-        &self,
-        at: &Kinematics<'_>,
-        committed: &[f64],
-        trial: &mut [f64],
-        out: &mut Response<'_>,
-    ) {
-        LAW.respond(&self.numbers(), (at, committed), trial, out);
-    }
-
-    fn lanes(&self, _: &[bool]) -> Option<LaneForm> {
-        Some(LAW.lanes(&self.numbers()).without_rate())
-    }
+    answers_by_law!();
 }
 
 /// The first pressing of a face.

@@ -16,13 +16,13 @@
 
 mod transition;
 
-use crate::shared::written::Written;
+use crate::shared::written::{Written, answers_by_law};
 use serde::Deserialize;
 use transition::{ANY, ONE, TWO};
-use trilith_element::lanes::{LaneAt, LaneForce, LaneForm, LaneLaw, LaneStep, Real};
+use trilith_element::lanes::{LaneAt, LaneForce, LaneLaw, LaneStep, Real};
 use trilith_element::{
-    Axis, Card, Category, Coordinates, Described, Exercise, History, Kinematics, Link, NodeCount,
-    Parameters, Response, Stroke, history,
+    Axis, Card, Category, Coordinates, Described, Exercise, History, Link, NodeCount, Parameters,
+    Stroke, history,
 };
 
 /// Smooth plastic spring.
@@ -90,19 +90,7 @@ impl Link for Wen {
         false
     }
 
-    fn respond(
-        &self,
-        at: &Kinematics<'_>,
-        committed: &[f64],
-        trial: &mut [f64],
-        out: &mut Response<'_>,
-    ) {
-        self.law().respond(&self.numbers(), (at, committed), trial, out);
-    }
-
-    fn lanes(&self, _: &[bool]) -> Option<LaneForm> {
-        Some(self.law().lanes(&self.numbers()))
-    }
+    answers_by_law!();
 }
 
 impl Wen {

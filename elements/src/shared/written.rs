@@ -12,7 +12,29 @@ pub(crate) struct Written {
     form: fn(Vec<usize>, Vec<f64>) -> LaneForm,
     coordinates: usize,
     parameters: usize,
+    /// It looks at rates.
+    rate: bool,
 }
+
+/// The answers of a link that has a `law` and its `numbers`.
+macro_rules! answers_by_law {
+    () => {
+        fn respond(
+            &self,
+            at: &trilith_element::Kinematics<'_>,
+            committed: &[f64],
+            trial: &mut [f64],
+            out: &mut trilith_element::Response<'_>,
+        ) {
+            self.law().respond(&self.numbers(), (at, committed), trial, out);
+        }
+
+        fn lanes(&self, _: &[bool]) -> Option<trilith_element::lanes::LaneForm> {
+            Some(self.law().lanes(&self.numbers()))
+        }
+    };
+}
+pub(crate) use answers_by_law;
 
 impl Written {
     pub(crate) const fn of<L: LaneLaw>() -> Self {
@@ -21,7 +43,13 @@ impl Written {
             form: LaneForm::of::<L>,
             coordinates: L::COORDINATES,
             parameters: L::PARAMETERS,
+            rate: true,
         }
+    }
+
+    /// The same where it does not look at rates.
+    pub(crate) const fn still(self) -> Self {
+        Self { rate: false, ..self }
     }
 
     /// What the link answers. Of the numbers the law takes as many as it has parameters.
@@ -38,7 +66,9 @@ impl Written {
 
     /// The form of a link of which all coordinates matter.
     pub(crate) fn lanes(&self, numbers: &[f64]) -> LaneForm {
-        (self.form)((0..self.coordinates).collect(), numbers[..self.parameters].to_vec())
+        let coordinates = (0..self.coordinates).collect();
+        let form = (self.form)(coordinates, numbers[..self.parameters].to_vec());
+        if self.rate { form } else { form.without_rate() }
     }
 }
 
