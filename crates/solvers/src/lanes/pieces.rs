@@ -4,15 +4,15 @@
 use super::coefficients::Rule;
 use super::grid::Piece;
 use super::loads::Loads;
-use super::newton::Found;
+use super::newton::{Found, foresee, settle};
 use super::plan::Plan;
 use super::record::{Record, take_record};
 use super::setup::LaneSetup;
 use super::show::show;
 use super::small::Aligned;
-use super::state::{State, keep};
+use super::state::{State, forget, keep, take_answers};
 use super::step::{Passed, acceleration, account_apart, take};
-use super::trial::{By, Make, follow, make};
+use super::trial::follow;
 use crate::march::DEPTH;
 use trilith_element::lanes::{Arithmetic, Real, Task};
 
@@ -109,6 +109,7 @@ pub(super) fn in_halves<A: Arithmetic, const M: usize, const L: usize, const N: 
     account_apart(with, plan, rule, &passed, state, record);
     keep(with, plan, !wrong, state, &before.0);
     take_record(with, wrong, &before.1, record);
+    forget(wrong, state);
     let grid = setups[0].shape.grid;
     let length = grid.step();
     let walks = (0..setups.len()).map(|i| {
@@ -151,15 +152,17 @@ fn walk<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
             look_behind(with, plan, &loads.start, (who, t), &before, (state, record));
         }
         let (who, from) = (zero.lt(goes), &*state);
-        let (by, loads, asked) = (By::Given(&rule), &loads, None);
-        let (to, found, passed) = (&mut made, &mut found, &mut passed);
-        let step = Make { plan, by, loads, t, who, from, to, found, passed, asked };
-        let (wrong, _) = make(with, step);
+        let (rule, loads, to) = (&rule, &loads, &mut made);
+        let (found, passed) = (&mut found, &mut passed);
+        with.run(Usual { plan, rule, loads, t, who, from, to, found, passed });
+        let wrong = found.wrong;
         let ok = who & !wrong;
         take_record(with, zero.le(zero), record, &mut before);
-        account_apart(with, plan, &rule, passed, &made, record);
+        account_apart(with, plan, rule, passed, &made, record);
         take_record(with, !ok, &before, record);
         follow(with, plan, Some(ok), &made, state);
+        take_answers(ok, &made, state);
+        forget(wrong, state);
         state.iterations = made.iterations;
         let failed = with.splat(1.0).only(wrong);
         let mut lost = vec![false; walks.len()];
@@ -210,6 +213,36 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
         let zero = with.splat(0.0);
         acceleration(plan, load, state);
         show(with, plan, (t, zero, zero), state, record);
+    }
+}
+
+/// A step into `to` as the march makes the usual ones, as a task.
+struct Usual<'a, R: Real, const M: usize, const L: usize, const N: usize> {
+    plan: &'a Plan<R, M, L, N>,
+    rule: &'a Rule<R, M, L>,
+    loads: &'a Loads<R, M>,
+    t: R,
+    who: R::Mask,
+    from: &'a State<R, M, L, N>,
+    to: &'a mut State<R, M, L, N>,
+    found: &'a mut Found<R, M, L>,
+    passed: &'a mut Passed<R, M>,
+}
+
+impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
+    for Usual<'_, A::Real, M, L, N>
+{
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self, with: A) {
+        let Self { plan, rule, loads, t, who, from, to, found, passed } = self;
+        to.start_from(from, plan);
+        to.answer = from.answer;
+        to.answer_to_rate = from.answer_to_rate;
+        foresee(plan, rule, loads, from, found);
+        settle(with, plan, rule, (who, true), to, found);
+        take(plan, rule, (loads, t), found, to, passed);
     }
 }
 

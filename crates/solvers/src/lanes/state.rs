@@ -230,9 +230,20 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
     }
 }
 
+/// The next first guess expects no answer where a mask says so: after a failure the tangents may be no numbers.
+pub(super) fn forget<R: Real, const M: usize, const L: usize, const N: usize>(
+    mask: R::Mask,
+    state: &mut State<R, M, L, N>,
+) {
+    let answers = [&mut state.answer, &mut state.answer_to_rate];
+    for x in answers.into_iter().flat_map(|b| b.as_flattened_mut()) {
+        *x = R::select(mask, x.of(0.0), *x);
+    }
+}
+
 /// Takes the answers of the tangents of another state where a mask says so.
 #[inline(always)]
-fn take_answers<R: Real, const M: usize, const L: usize, const N: usize>(
+pub(super) fn take_answers<R: Real, const M: usize, const L: usize, const N: usize>(
     mask: R::Mask,
     from: &State<R, M, L, N>,
     to: &mut State<R, M, L, N>,

@@ -1,6 +1,5 @@
 //! A step on trial: whole and in two halves.
 
-use super::coefficients::Rule;
 use super::error::{Norms, Tried};
 use super::loads::{Loads, Points};
 use super::newton::{Found, foresee_by_tangents, settle};
@@ -64,7 +63,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Trial<R, M, L, N> 
             with,
             Make {
                 plan,
-                by: By::Links(rules),
+                rules,
                 loads: of_whole,
                 t: start,
                 who,
@@ -79,7 +78,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Trial<R, M, L, N> 
             with,
             Make {
                 plan,
-                by: By::Links(of_halves),
+                rules: of_halves,
                 loads: of_first,
                 t: start,
                 who,
@@ -94,7 +93,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Trial<R, M, L, N> 
             with,
             Make {
                 plan,
-                by: By::Links(of_halves),
+                rules: of_halves,
                 loads: of_second,
                 t: middle,
                 who,
@@ -169,15 +168,9 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Trial<R, M, L, N> 
     }
 }
 
-/// What a step goes by: the rule that its links ask for, or a given one.
-pub(super) enum By<'a, R: Real, const M: usize, const L: usize> {
-    Links(&'a mut Rules<R, M, L>),
-    Given(&'a Rule<R, M, L>),
-}
-
 /// Makes one step.
 #[inline(never)]
-pub(super) fn make<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
+fn make<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
     with: A,
     step: Make<'_, A::Real, M, L, N>,
 ) -> (<A::Real as Real>::Mask, Turned<A::Real>) {
@@ -185,19 +178,19 @@ pub(super) fn make<A: Arithmetic, const M: usize, const L: usize, const N: usize
 }
 
 /// One step into `to`, as a task; gives back who has found no equilibrium, and what a half has missed.
-pub(super) struct Make<'a, R: Real, const M: usize, const L: usize, const N: usize> {
-    pub plan: &'a Plan<R, M, L, N>,
-    pub by: By<'a, R, M, L>,
-    pub loads: &'a Loads<R, M>,
+struct Make<'a, R: Real, const M: usize, const L: usize, const N: usize> {
+    plan: &'a Plan<R, M, L, N>,
+    rules: &'a mut Rules<R, M, L>,
+    loads: &'a Loads<R, M>,
     /// Where it begins, s, and for whom.
-    pub t: R,
-    pub who: R::Mask,
-    pub from: &'a State<R, M, L, N>,
-    pub to: &'a mut State<R, M, L, N>,
-    pub found: &'a mut Found<R, M, L>,
-    pub passed: &'a mut Passed<R, M>,
+    t: R,
+    who: R::Mask,
+    from: &'a State<R, M, L, N>,
+    to: &'a mut State<R, M, L, N>,
+    found: &'a mut Found<R, M, L>,
+    passed: &'a mut Passed<R, M>,
     /// Of a half.
-    pub asked: Option<&'a mut Asked<R>>,
+    asked: Option<&'a mut Asked<R>>,
 }
 
 impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
@@ -207,13 +200,9 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
 
     #[inline(always)]
     fn run(self, with: A) -> Self::Output {
-        let Self { plan, by, loads, t, who, from, to, found, passed, asked } = self;
+        let Self { plan, rules, loads, t, who, from, to, found, passed, asked } = self;
         to.start_from(from, plan);
-        let rule = match by {
-            By::Links(rules) => rules.choose(plan, from),
-            By::Given(rule) => rule,
-        };
-        // What the tangents answered in the step before holds for its length alone.
+        let rule = rules.choose(plan, from);
         foresee_by_tangents(plan, rule, loads, from, found);
         settle(with, plan, rule, (who, false), to, found);
         take(plan, rule, (loads, t), found, to, passed);
