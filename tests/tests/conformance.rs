@@ -6,6 +6,10 @@
 //! between −1 and 1; with all of them 0 it is the example itself, towards which proptest shrinks.
 
 use proptest::test_runner::{Config, RngAlgorithm, TestCaseError, TestRng, TestRunner};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+use trilith::Registry;
 use trilith::exercise::Specimen;
 use trilith_element::conformance::{ConformanceError, Kit};
 use trilith_element::{
@@ -120,38 +124,52 @@ fn examine(
     kit.check(law.as_ref()).map(drop).map_err(told)
 }
 
+/// What is wrong with a link, in words.
+fn judged(registry: &Registry, card: &'static Card, read: &ReadLink) -> Result<(), String> {
+    let started = Instant::now();
+    let specimen = Specimen::new(registry, card.kind, &[])
+        .map_err(|error| format!("the example of {}: {error}", card.kind))?;
+    let (nodes, example) = (specimen.nodes().len(), specimen.values);
+    assert!(example.0.len() < NUMBERS, "{} has many parameters", card.kind);
+    let config = Config {
+        cases: SETS,
+        max_global_rejects: 20 * SETS,
+        failure_persistence: None,
+        ..Config::default()
+    };
+    let random = TestRng::from_seed(RngAlgorithm::ChaCha, &[7; 32]);
+    let mut runner = TestRunner::new_with_rng(config, random);
+    let case = (proptest::collection::vec(-1.0..1.0, NUMBERS), proptest::num::u64::ANY);
+    let result =
+        runner.run(&case, |(numbers, seed)| examine(card, read, (&example, nodes), &numbers, seed));
+    let took = started.elapsed().as_secs_f64();
+    eprintln!("{}: {} paths in {took:.1} s", card.kind, SETS as usize * PATHS);
+    result.map_err(|error| error.to_string().chars().take(1500).collect())
+}
+
 #[test]
 fn every_link_keeps_its_contract_on_random_paths_with_random_parameters() {
     let mut links = Links::default();
     trilith_tests::register(&mut links);
     let registry = trilith_tests::registry();
-    let started = std::time::Instant::now();
-    let mut wrong = Vec::new();
-    for (card, read) in links.0 {
-        let (nodes, example) = match Specimen::new(&registry, card.kind, &[]) {
-            Ok(specimen) => (specimen.nodes().len(), specimen.values),
-            Err(error) => {
-                wrong.push(format!("the example of {}: {error}", card.kind));
-                continue;
-            }
-        };
-        assert!(example.0.len() < NUMBERS, "{} has many parameters", card.kind);
-        let config = Config {
-            cases: SETS,
-            max_global_rejects: 20 * SETS,
-            failure_persistence: None,
-            ..Config::default()
-        };
-        let random = TestRng::from_seed(RngAlgorithm::ChaCha, &[7; 32]);
-        let mut runner = TestRunner::new_with_rng(config, random);
-        let case = (proptest::collection::vec(-1.0..1.0, NUMBERS), proptest::num::u64::ANY);
-        let result = runner
-            .run(&case, |(numbers, seed)| examine(card, &read, (&example, nodes), &numbers, seed));
-        let since = started.elapsed().as_secs_f64();
-        eprintln!("{}: {} paths, {since:.1} s since the start", card.kind, SETS as usize * PATHS);
-        if let Err(error) = result {
-            wrong.push(error.to_string().chars().take(1500).collect::<String>());
+    // Each thread takes the next link; what is told is told in their order.
+    let (next, wrong) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    std::thread::scope(|scope| {
+        for _ in 0..threads {
+            scope.spawn(|| {
+                loop {
+                    let at = next.fetch_add(1, Ordering::Relaxed);
+                    let Some((card, read)) = links.0.get(at) else { break };
+                    if let Err(error) = judged(&registry, card, read) {
+                        wrong.lock().unwrap().push((at, error));
+                    }
+                }
+            });
         }
-    }
+    });
+    let mut wrong = wrong.into_inner().unwrap();
+    wrong.sort();
+    let wrong: Vec<String> = wrong.into_iter().map(|(_, error)| error).collect();
     assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
 }
