@@ -105,10 +105,11 @@ impl Plain {
         }
         let it = self.law.bind(py).call_method1("at", (PyTuple::new(py, parameters)?,))?;
         let mut ready = ready();
-        if ready.len() == READY {
-            ready.remove(0);
-        }
+        let last = if ready.len() == READY { Some(ready.remove(0)) } else { None };
         ready.push((parameters.into(), it.clone().unbind()));
+        // The end of an object may run Python, which others may wait for who wait for this list.
+        drop(ready);
+        drop(last);
         Ok(it)
     }
 
