@@ -166,7 +166,9 @@ impl Plain {
         let given = self.call(&self.force, asked, &asked.memory)?;
         let read = match trial.len() {
             0 => plain_numbers(&given, f),
-            _ => plain_pair(&given, f, trial),
+            _ => {
+                pair(&given).is_some_and(|[x, y]| plain_numbers(&x, f) && plain_numbers(&y, trial))
+            }
         };
         if !read {
             let (forces, history): (Vec<f64>, Vec<f64>) =
@@ -178,31 +180,27 @@ impl Plain {
     }
 }
 
-/// Reads a number, or a tuple of them, into as many places; false where it is something else.
+/// Reads a number; false where it is something else.
+fn plain_number(given: &Bound<'_, PyAny>, to: &mut f64) -> bool {
+    given.cast::<PyFloat>().map(|x| *to = x.value()).is_ok()
+}
+
+/// Reads a tuple of as many numbers as there are places; of one the number alone will do.
 fn plain_numbers(given: &Bound<'_, PyAny>, to: &mut [f64]) -> bool {
-    if let ([to], Ok(x)) = (&mut *to, given.cast::<PyFloat>()) {
-        *to = x.value();
+    if let [one] = &mut *to
+        && plain_number(given, one)
+    {
         return true;
     }
-    let Ok(all) = given.cast::<PyTuple>() else { return false };
-    if all.len() != to.len() {
-        return false;
-    }
-    to.iter_mut().zip(all.iter_borrowed()).all(|(to, x)| match x.cast::<PyFloat>() {
-        Ok(x) => {
-            *to = x.value();
-            true
-        }
-        Err(_) => false,
+    given.cast::<PyTuple>().is_ok_and(|all| {
+        all.len() == to.len() && to.iter_mut().zip(all).all(|(to, x)| plain_number(&x, to))
     })
 }
 
-/// The same of a tuple of two.
-fn plain_pair(given: &Bound<'_, PyAny>, first: &mut [f64], second: &mut [f64]) -> bool {
-    let Ok(pair) = given.cast::<PyTuple>() else { return false };
-    let mut two = pair.iter_borrowed();
-    let (Some(x), Some(y), None) = (two.next(), two.next(), two.next()) else { return false };
-    plain_numbers(&x, first) && plain_numbers(&y, second)
+/// What a tuple of two holds.
+fn pair<'py>(given: &Bound<'py, PyAny>) -> Option<[Bound<'py, PyAny>; 2]> {
+    let pair = given.cast::<PyTuple>().ok().filter(|pair| pair.len() == 2)?;
+    Some([pair.get_item(0).ok()?, pair.get_item(1).ok()?])
 }
 
 /// Copies a list whose length `trilith._law.Plain` has looked at.
@@ -226,9 +224,10 @@ impl LawFunction for Plain {
             if let Some(method) = &self.tangent {
                 let given = self.call(method, &asked, &asked.memory)?;
                 // Of more coordinates they are lists of rows.
-                let read = match (out.f.len(), self.rates) {
-                    (1, false) => plain_numbers(&given, out.k),
-                    (1, true) => plain_pair(&given, out.k, out.c),
+                let read = match (&mut *out.k, &mut *out.c, self.rates) {
+                    ([k], _, false) => plain_number(&given, k),
+                    ([k], [c], true) => pair(&given)
+                        .is_some_and(|[x, y]| plain_number(&x, k) && plain_number(&y, c)),
                     _ => false,
                 };
                 if !read {

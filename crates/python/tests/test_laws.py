@@ -268,6 +268,24 @@ def test_a_law_that_goes_wrong_is_an_exception(way: int, words: str, cause: type
     assert isinstance(e.value, tl.RunError)
 
 
+@pytest.mark.parametrize("given", [(1e5,), [[1e5, 0.0]], "much"])
+def test_a_tangent_of_another_shape_is_an_exception(given: Any) -> None:
+    class Bent(tl.Law):
+        """Its tangent is no number."""
+
+        rates = False
+        compiled = False
+
+        def force(self, d: Any, v: Any, history: Any) -> Any:
+            return 1e5 * d[0]
+
+        def tangent(self, d: Any, v: Any, history: Any) -> Any:
+            return given
+
+    with pytest.raises(tl.LawError, match="Bent.tangent must return ∂f/∂d"):
+        model(f'Bent(node: "m", {ALONG})', [Bent]).run()
+
+
 @with_numba
 def test_what_is_raised_where_it_is_compiled_is_told_as_in_python() -> None:
     class Checks(tl.Law):
