@@ -48,7 +48,7 @@ mod way;
 use law::{HISTORY, Law};
 use serde::Deserialize;
 use std::borrow::Cow;
-use trilith_element::lanes::{LaneAt, LaneForce, LaneForm, LaneLaw};
+use trilith_element::lanes::{LaneAt, LaneForce, LaneForm, LaneLaw, respond};
 use trilith_element::{Axis, Choices, Coordinates, Field, Kinematics, Link, Parameters, Response};
 
 /// How an [`IbarraMedinaKrawinkler`] reloads.
@@ -238,7 +238,7 @@ impl Link for IbarraMedinaKrawinkler {
         let numbers = self.numbers();
         let asked = LaneAt::new(at, committed, &numbers);
         let mut force = LaneForce { f: out.f, k: out.k, c: out.c };
-        *out.energy = Law::respond(&asked, &mut force, &mut trial[..HISTORY]).into();
+        *out.energy = respond::<Law>(&asked, &mut force, &mut trial[..HISTORY]).into();
     }
 
     fn lanes(&self, _: &[bool]) -> Option<LaneForm> {

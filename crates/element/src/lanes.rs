@@ -49,6 +49,8 @@ mod law;
 mod listed;
 mod real;
 #[cfg(target_arch = "x86_64")]
+mod registers;
+#[cfg(target_arch = "x86_64")]
 mod side_by_side;
 #[cfg(target_arch = "x86_64")]
 mod wide;
@@ -59,7 +61,7 @@ pub use arithmetic::{Avx2Lanes, Avx512Lanes, FusedOne};
 pub use dual::Dual;
 pub use law::{
     DIRECTIONS, Directions, ErasedLaw, LaneAt, LaneContact, LaneForce, LaneForm, LaneLaw,
-    LaneLinks, LaneStep,
+    LaneLinks, LaneStep, respond,
 };
 pub use real::Real;
 #[cfg(target_arch = "x86_64")]

@@ -4,7 +4,9 @@ use super::NLink;
 use super::contact::{NLinkContact, PARAMETERS, RESTORING, UNDAMPED, VARIED};
 use crate::shared::restitution::damping_ratio;
 use std::borrow::Cow;
-use trilith_element::lanes::{LaneAt, LaneContact, LaneForce, LaneForm, LaneLaw, LaneStep};
+use trilith_element::lanes::{
+    LaneAt, LaneContact, LaneForce, LaneForm, LaneLaw, LaneStep, respond,
+};
 use trilith_element::{
     Axis, Contact, ContactUse, Coordinates, Field, History, Impact, Kinematics, Link, Response,
     history,
@@ -166,7 +168,7 @@ impl Link for NLink {
         let (mut k, mut c) = ([0.0; 9], [0.0; 9]);
         let mut force = LaneForce { f: &mut out.f[..3], k: &mut k, c: &mut c };
         let step: LaneStep<f64> = with_flags!(self.flags(), 2, Law => {
-            Law::respond(&asked, &mut force, trial)
+            respond::<Law>(&asked, &mut force, trial)
         });
         for i in 0..3 {
             out.k[i * n..i * n + 3].copy_from_slice(&k[3 * i..3 * i + 3]);

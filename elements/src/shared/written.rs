@@ -1,6 +1,6 @@
 //! A law that is written once, over lanes, and serves its link by that text.
 
-use trilith_element::lanes::{LaneAt, LaneForce, LaneForm, LaneLaw};
+use trilith_element::lanes::{LaneAt, LaneForce, LaneForm, LaneLaw, respond};
 use trilith_element::{Kinematics, Response};
 
 type Ask = fn(&LaneAt<'_, f64>, &mut [f64], &mut Response<'_>);
@@ -74,5 +74,5 @@ impl Written {
 
 fn ask<L: LaneLaw>(at: &LaneAt<'_, f64>, trial: &mut [f64], out: &mut Response<'_>) {
     let mut force = LaneForce { f: out.f, k: out.k, c: out.c };
-    *out.energy = L::respond(at, &mut force, trial).into();
+    *out.energy = respond::<L>(at, &mut force, trial).into();
 }

@@ -2,6 +2,8 @@
 
 use super::law::{ErasedLaw, LaneLinks};
 #[cfg(target_arch = "x86_64")]
+use super::registers::{Registers, Two};
+#[cfg(target_arch = "x86_64")]
 use super::{Fused, Wide};
 use super::{LaneContact, LaneStep, Real};
 #[cfg(target_arch = "x86_64")]
@@ -225,56 +227,56 @@ impl Arithmetic for FusedOne {
 /// Eight analyses at a time, in the registers that a token of [`pulp`] stands for.
 #[cfg(target_arch = "x86_64")]
 macro_rules! eight_lanes {
-    ($(#[$doc:meta])* $name:ident, $token:ident, $registers:literal, $entries:ident) => {
+    ($(#[$doc:meta])* $name:ident, $set:ident, $token:ident, $entries:ident) => {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug)]
-        pub struct $name($token);
+        pub struct $name($set);
 
         impl $name {
             /// Where the machine has them.
             #[must_use]
             pub fn available() -> Option<Self> {
-                $token::try_new().map(Self)
+                $token::try_new().map($set::of).map(Self)
             }
         }
 
         impl Arithmetic for $name {
-            type Real = Wide<$token, $registers>;
+            type Real = Wide<$set>;
             const WIDTH: usize = 8;
 
             #[inline(always)]
             fn run<T: Task<Self>>(self, task: T) -> T::Output {
-                pulp::Simd::vectorize(self.0, Within(self, task))
+                pulp::Simd::vectorize(self.0.token(), Within(self, task))
             }
             #[inline(always)]
             fn splat(self, x: f64) -> Self::Real {
-                Wide::splat(self.0, x)
+                Self::Real::splat(self.0, x)
             }
             #[inline(always)]
             fn gather(self, of: impl FnMut(usize) -> f64) -> Self::Real {
-                Wide::from_lanes(self.0, std::array::from_fn(of))
+                Self::Real::of_array(self.0, std::array::from_fn(of))
             }
             #[inline(always)]
             fn load(self, from: &[f64]) -> Self::Real {
                 let [a, b, c, d, e, f, g, h] = from[..8] else { unreachable!("eight numbers") };
-                Wide::from_lanes(self.0, [a, b, c, d, e, f, g, h])
+                Self::Real::of_array(self.0, [a, b, c, d, e, f, g, h])
             }
             #[inline(always)]
             fn store(self, x: Self::Real, to: &mut [f64]) {
-                to[..8].copy_from_slice(&x.lanes());
+                to[..8].copy_from_slice(&x.array());
             }
             #[inline(always)]
             fn lane(self, x: Self::Real, lane: usize) -> f64 {
-                x.lanes()[lane]
+                x.array()[lane]
             }
             #[inline(always)]
             fn split_pairs(self, from: &[f64]) -> [Self::Real; 2] {
                 let pairs = from.first_chunk().expect("eight pairs");
-                Wide::split_pairs(self.0, pairs)
+                Self::Real::split_pairs(self.0, pairs)
             }
             #[inline(always)]
             fn join_pairs(self, x: [Self::Real; 2]) -> [f64; 16] {
-                Wide::join_pairs(x)
+                Self::Real::join_pairs(x)
             }
             #[inline(always)]
             fn respond(
@@ -302,10 +304,10 @@ macro_rules! eight_lanes {
 #[cfg(target_arch = "x86_64")]
 eight_lanes! {
     /// Eight analyses at a time with AVX2 and FMA.
-    Avx2Lanes, V3, 2, avx2
+    Avx2Lanes, Two, V3, avx2
 }
 #[cfg(target_arch = "x86_64")]
 eight_lanes! {
     /// Eight analyses at a time with AVX-512 (F, BW, CD, DQ and VL), with the bits of [`Avx2Lanes`].
-    Avx512Lanes, V4, 1, avx512
+    Avx512Lanes, V4, V4, avx512
 }

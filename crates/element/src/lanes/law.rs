@@ -227,19 +227,36 @@ impl<'a, R: Real> LaneLinks<'a, R> {
         }
     }
 
-    /// The answer of the link with this index.
+    /// The same with where the answer goes: force and tangents, and the history at the end.
     #[inline(always)]
-    pub(super) fn respond<L: LaneLaw>(&mut self, i: usize) -> LaneStep<R> {
+    fn with_room<L: LaneLaw>(&mut self, i: usize) -> (LaneAt<'a, R>, LaneForce<'_, R>, &mut [R]) {
         let (n, h) = (L::COORDINATES, L::HISTORY);
         let at = self.question::<L>(i);
         let block = i * n * n..(i + 1) * n * n;
-        let mut out = LaneForce {
+        let out = LaneForce {
             f: &mut self.f[i * n..(i + 1) * n],
             k: &mut self.k[block.clone()],
             c: &mut self.c[block],
         };
-        L::respond(&at, &mut out, &mut self.trial[i * h..(i + 1) * h])
+        (at, out, &mut self.trial[i * h..(i + 1) * h])
     }
+
+    /// The answer of the link with this index.
+    #[inline(always)]
+    pub(super) fn respond<L: LaneLaw>(&mut self, i: usize) -> LaneStep<R> {
+        let (at, mut out, trial) = self.with_room::<L>(i);
+        L::respond(&at, &mut out, trial)
+    }
+}
+
+/// What a law answers over plain numbers: one function for the link itself and for sweeps on any machine.
+#[inline(never)]
+pub fn respond<L: LaneLaw>(
+    at: &LaneAt<'_, f64>,
+    out: &mut LaneForce<'_, f64>,
+    trial: &mut [f64],
+) -> LaneStep<f64> {
+    L::respond(at, out, trial)
 }
 
 type RespondBy<A> =
@@ -305,12 +322,14 @@ impl fmt::Debug for ErasedLaw {
 // One link to a task: a law inside a loop takes several times as long to compile. Only where lanes are widest is that
 // worth it: a call for each link takes 3 % of a sweep.
 
+#[cfg(target_arch = "x86_64")]
 pub(super) struct RespondTask<'a, 'b, L, R>(
     pub &'a mut LaneLinks<'b, R>,
     pub usize,
     pub PhantomData<L>,
 );
 
+#[cfg(target_arch = "x86_64")]
 impl<A: Arithmetic, L: LaneLaw> Task<A> for RespondTask<'_, '_, L, A::Real> {
     type Output = LaneStep<A::Real>;
     #[inline(always)]
@@ -361,6 +380,7 @@ fn respond_all<A: Arithmetic, L: LaneLaw>(
     with.run(RespondAll::<L, _>(links, out, PhantomData));
 }
 
+#[cfg(target_arch = "x86_64")]
 fn respond_each<A: Arithmetic, L: LaneLaw>(
     with: A,
     links: &mut LaneLinks<'_, A::Real>,
@@ -368,6 +388,17 @@ fn respond_each<A: Arithmetic, L: LaneLaw>(
 ) {
     for (i, step) in out.iter_mut().enumerate() {
         *step = with.run(RespondTask::<L, _>(links, i, PhantomData));
+    }
+}
+
+fn respond_plainly<L: LaneLaw>(
+    _: Portable,
+    links: &mut LaneLinks<'_, f64>,
+    out: &mut [LaneStep<f64>],
+) {
+    for (i, step) in out.iter_mut().enumerate() {
+        let (at, mut out, trial) = links.with_room::<L>(i);
+        *step = respond::<L>(&at, &mut out, trial);
     }
 }
 
@@ -441,7 +472,7 @@ impl ErasedLaw {
             falls: L::FALLS,
             is_long: L::IS_LONG,
             derivative: |at, out, trial| L::respond(at, out, trial),
-            portable: entries_by::<Portable, L>(respond_each::<Portable, L>),
+            portable: entries_by::<Portable, L>(respond_plainly::<L>),
             #[cfg(target_arch = "x86_64")]
             fused: entries_by::<FusedOne, L>(respond_together::<L>),
             #[cfg(target_arch = "x86_64")]

@@ -4,12 +4,11 @@
 use super::law::RespondTask;
 use super::{Arithmetic, Fused, FusedOne, LaneAt, LaneForce, LaneLaw, LaneLinks, LaneStep};
 use super::{Task, Wide};
-use pulp::f64x4;
 use pulp::x86::V3;
 use std::marker::PhantomData;
 
 /// Four links.
-type Four = Wide<V3, 1>;
+type Four = Wide<V3>;
 
 /// Most coordinates, history variables and parameters of a link that goes with others.
 const COORDINATES: usize = 3;
@@ -17,7 +16,10 @@ const NUMBERS: usize = 16;
 
 /// True where the links of a law may go side by side.
 const fn fit<L: LaneLaw>() -> bool {
-    L::COORDINATES <= COORDINATES && L::HISTORY <= NUMBERS && L::PARAMETERS <= NUMBERS
+    !L::IS_LONG
+        && L::COORDINATES <= COORDINATES
+        && L::HISTORY <= NUMBERS
+        && L::PARAMETERS <= NUMBERS
 }
 
 /// Forces, tangents and the end of a step for links of a law, as many side by side as there are.
@@ -103,7 +105,7 @@ struct Group {
 impl Group {
     #[inline(always)]
     fn splat(self, x: Fused) -> Four {
-        Wide::splat(self.simd, x.0)
+        Four::splat(self.simd, x.0)
     }
 
     /// The numbers of the links, `count` to each and not more than `N`.
@@ -116,7 +118,7 @@ impl Group {
         let (c, d) = (&from[2.min(last) * count..][..count], &from[3.min(last) * count..][..count]);
         let mut to = [self.splat(Fused(0.0)); N];
         for i in 0..count {
-            to[i] = Wide::of_registers(self.simd, [f64x4(a[i].0, b[i].0, c[i].0, d[i].0)]);
+            to[i] = Four::of_four(self.simd, [a[i].0, b[i].0, c[i].0, d[i].0]);
         }
         to
     }
@@ -134,6 +136,5 @@ impl Group {
 
 #[inline(always)]
 fn lane_of(x: Four, lane: usize) -> Fused {
-    let [f64x4(a, b, c, d)] = x.registers();
-    Fused([a, b, c, d][lane])
+    Fused(x.four()[lane])
 }

@@ -1,40 +1,37 @@
 //! Numbers for machines with FMA and registers of 256 bits (AVX2) or 512 (AVX-512). They exist only where a
 //! token of [`pulp`] says that the machine has them.
 
-use super::each::{each, each_of_two};
+use super::each::each;
+use super::registers::{Both, Registers, Two, avx2, avx512, in_one, in_two};
 use super::{Real, functions};
 use pulp::x86::{V3, V4};
-use pulp::{Simd, bytemuck};
+use pulp::{Simd, cast, f64x4, f64x8};
+use std::arch::x86_64::__m256d;
 use std::fmt;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
-
-/// Numbers side by side at most.
-const LANES: usize = 8;
 
 /// One number, multiplied and added in one rounding as [`Wide`] does it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fused(pub f64);
 
-/// Numbers in `K` registers: eight in two of AVX2 or in one of AVX-512, which lie in one line of the cache; four in one
-/// of AVX2.
-#[repr(align(64))]
-pub struct Wide<S: Simd, const K: usize> {
+/// Numbers side by side: eight in a register of AVX-512 (`V4`) or in [two](Two) of AVX2, four in one of AVX2 (`V3`).
+pub struct Wide<S: Registers> {
     pub(super) simd: S,
-    x: [S::f64s; K],
+    x: S::Numbers,
 }
 
-/// Eight answers.
-pub struct WideMask<S: Simd, const K: usize> {
+/// As many answers.
+pub struct WideMask<S: Registers> {
     simd: S,
-    x: [S::m64s; K],
+    x: S::Answers,
 }
 
 // Copied as a whole: a derived clone would go over the registers one by one.
 macro_rules! copied {
     ($($name:ident),*) => {$(
-        impl<S: Simd, const K: usize> Copy for $name<S, K> {}
+        impl<S: Registers> Copy for $name<S> {}
 
-        impl<S: Simd, const K: usize> Clone for $name<S, K> {
+        impl<S: Registers> Clone for $name<S> {
             #[inline(always)]
             fn clone(&self) -> Self {
                 *self
@@ -43,12 +40,6 @@ macro_rules! copied {
     )*};
 }
 copied!(Wide, WideMask);
-
-impl<S: Simd, const K: usize> fmt::Debug for Wide<S, K> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_list().entries(self.lanes()).finish()
-    }
-}
 
 macro_rules! operators {
     ($($trait:ident $method:ident $op:tt),*) => {$(
@@ -156,199 +147,201 @@ impl Real for Fused {
     }
 }
 
-impl<S: Simd, const K: usize> Wide<S, K> {
-    /// The lanes one by one; behind them, where there are fewer than eight, zeros.
+impl Wide<V3> {
     #[inline(always)]
-    #[must_use]
-    pub fn lanes(self) -> [f64; LANES] {
-        let mut lanes = [0.0; LANES];
-        let own = bytemuck::cast_slice(&self.x);
-        lanes[..own.len()].copy_from_slice(own);
-        lanes
+    pub(super) fn of_four(simd: V3, x: [f64; 4]) -> Self {
+        Self { simd, x: cast(x) }
     }
 
     #[inline(always)]
-    pub(super) fn from_lanes(simd: S, x: [f64; LANES]) -> Self {
-        let from: &[S::f64s] = bytemuck::cast_slice(&x);
-        let mut x = [simd.splat_f64s(0.0); K];
-        each_of_two!(K, k => x[k] = from[k]);
-        Self { simd, x }
+    pub(super) fn four(self) -> [f64; 4] {
+        cast(self.x)
     }
 
     #[inline(always)]
-    pub(super) fn splat(simd: S, x: f64) -> Self {
-        Self { simd, x: [simd.splat_f64s(x); K] }
+    fn of_array(simd: V3, x: [f64; 8]) -> Self {
+        let [a, b, c, d, ..] = x;
+        Self::of_four(simd, [a, b, c, d])
+    }
+
+    /// The lanes, and behind them zeros.
+    #[inline(always)]
+    fn array(self) -> [f64; 8] {
+        let [a, b, c, d] = self.four();
+        [a, b, c, d, 0.0, 0.0, 0.0, 0.0]
+    }
+}
+
+impl Wide<Two> {
+    #[inline(always)]
+    pub(super) fn of_array(simd: Two, x: [f64; 8]) -> Self {
+        let [a, b]: [__m256d; 2] = cast(x);
+        Self { simd, x: Both(a, b) }
     }
 
     #[inline(always)]
-    pub(super) fn of_registers(simd: S, x: [S::f64s; K]) -> Self {
-        Self { simd, x }
-    }
-
-    #[inline(always)]
-    pub(super) fn registers(self) -> [S::f64s; K] {
-        self.x
+    pub(super) fn array(self) -> [f64; 8] {
+        cast([self.x.0, self.x.1])
     }
 
     /// Eight pairs, their first numbers and their second.
     #[inline(always)]
-    pub(super) fn split_pairs(simd: S, pairs: &[f64; 16]) -> [Self; 2] {
-        let pairs: &[S::f64s] = bytemuck::cast_slice(pairs);
-        let mut both = [Self::splat(simd, 0.0); 2];
-        each_of_two!(K, k => {
-            let [x, y] = simd.deinterleave_shfl_f64s([pairs[2 * k], pairs[2 * k + 1]]);
-            (both[0].x[k], both[1].x[k]) = (x, y);
-        });
-        both
+    pub(super) fn split_pairs(simd: Two, pairs: &[f64; 16]) -> [Self; 2] {
+        let [a, b, c, d]: [f64x4; 4] = cast(*pairs);
+        let [x0, y0] = simd.0.deinterleave_shfl_f64s([a, b]);
+        let [x1, y1] = simd.0.deinterleave_shfl_f64s([c, d]);
+        [Self { simd, x: Both(cast(x0), cast(x1)) }, Self { simd, x: Both(cast(y0), cast(y1)) }]
     }
 
     #[inline(always)]
     pub(super) fn join_pairs([first, second]: [Self; 2]) -> [f64; 16] {
-        let mut all = [0.0; 16];
-        let pairs: &mut [S::f64s] = bytemuck::cast_slice_mut(&mut all);
-        each_of_two!(K, k => {
-            let two = first.simd.interleave_shfl_f64s([first.x[k], second.x[k]]);
-            (pairs[2 * k], pairs[2 * k + 1]) = (two[0], two[1]);
-        });
-        all
+        let simd = first.simd.0;
+        let ([a, b], [c, d]): ([f64x4; 2], [f64x4; 2]) =
+            (cast([first.x.0, second.x.0]), cast([first.x.1, second.x.1]));
+        let ([a, b], [c, d]) =
+            (simd.interleave_shfl_f64s([a, b]), simd.interleave_shfl_f64s([c, d]));
+        cast([a, b, c, d])
     }
 }
 
-/// The operations for one kind of registers. Generic ones would be three functions inside one another for each operation of
-/// a law, until the machine code is made; a closure for each might stay a call, outside of what is compiled for registers.
+impl Wide<V4> {
+    #[inline(always)]
+    pub(super) fn of_array(simd: V4, x: [f64; 8]) -> Self {
+        Self { simd, x: cast(x) }
+    }
+
+    #[inline(always)]
+    pub(super) fn array(self) -> [f64; 8] {
+        cast(self.x)
+    }
+
+    /// Eight pairs, their first numbers and their second.
+    #[inline(always)]
+    pub(super) fn split_pairs(simd: V4, pairs: &[f64; 16]) -> [Self; 2] {
+        let pairs: [f64x8; 2] = cast(*pairs);
+        let [x, y] = simd.deinterleave_shfl_f64s(pairs);
+        [Self { simd, x: cast(x) }, Self { simd, x: cast(y) }]
+    }
+
+    #[inline(always)]
+    pub(super) fn join_pairs([first, second]: [Self; 2]) -> [f64; 16] {
+        let both: [f64x8; 2] = cast([first.x, second.x]);
+        cast(first.simd.interleave_shfl_f64s(both))
+    }
+}
+
+/// The operations on registers. Generic ones would be functions inside one another for each operation of a law, until the
+/// machine code is made; a closure for each might stay a call, outside of what is compiled for registers.
 macro_rules! operations {
-    ($token:ty) => {
-        operations!(@binary $token: Add add add_f64s, Sub sub sub_f64s, Mul mul mul_f64s, Div div div_f64s);
-        operations!(@masks $token: BitAnd bitand and_m64s, BitOr bitor or_m64s);
+    ($set:ty, $over:ident $by:ident) => {
+        operations!(@all $set, $over $by, Wide: Add add, Sub sub, Mul mul, Div div);
+        operations!(@all $set, $over $by, WideMask: BitAnd bitand, BitOr bitor);
 
-    impl<const K: usize> Not for WideMask<$token, K> {
-        type Output = Self;
-        #[inline(always)]
-        fn not(self) -> Self {
-            let mut x = self.x;
-            each_of_two!(K, k => x[k] = self.simd.not_m64s(x[k]));
-            Self { simd: self.simd, x }
-        }
-    }
-
-    impl<const K: usize> Neg for Wide<$token, K> {
-        type Output = Self;
-        #[inline(always)]
-        fn neg(self) -> Self {
-            operations!(@one self, neg_f64s)
-        }
-    }
-
-    impl<const K: usize> Real for Wide<$token, K> {
-        type Mask = WideMask<$token, K>;
-
-        #[inline(always)]
-        fn of(self, x: f64) -> Self {
-            Self::splat(self.simd, x)
-        }
-        #[inline(always)]
-        fn mul_add(self, a: Self, b: Self) -> Self {
-            let mut x = self.x;
-            each_of_two!(K, k => x[k] = self.simd.mul_add_f64s(x[k], a.x[k], b.x[k]));
-            Self { simd: self.simd, x }
-        }
-        #[inline(always)]
-        fn abs(self) -> Self {
-            // Not `abs_f64s`: that makes its mask by what may stay a call.
-            let mask = self.simd.splat_f64s(f64::from_bits(u64::MAX >> 1));
-            let mut x = self.x;
-            each_of_two!(K, k => x[k] = self.simd.and_f64s(x[k], mask));
-            Self { simd: self.simd, x }
-        }
-        #[inline(always)]
-        fn sqrt(self) -> Self {
-            operations!(@one self, sqrt_f64s)
-        }
-        #[inline(always)]
-        fn lt(self, o: Self) -> Self::Mask {
-            operations!(@compare self, o, less_than_f64s)
-        }
-        #[inline(always)]
-        fn le(self, o: Self) -> Self::Mask {
-            operations!(@compare self, o, less_than_or_equal_f64s)
-        }
-        #[inline(always)]
-        fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
-            let mut x = yes.x;
-            each_of_two!(K, k => x[k] = yes.simd.select_f64s(mask.x[k], x[k], no.x[k]));
-            Self { simd: yes.simd, x }
-        }
-        #[inline(always)]
-        fn max(self, o: Self) -> Self {
-            operations!(@two self, o, max_f64s)
-        }
-        #[inline(always)]
-        fn min(self, o: Self) -> Self {
-            operations!(@two self, o, min_f64s)
-        }
-        #[inline(always)]
-        fn any(self, mask: Self::Mask) -> bool {
-            let s = self.simd;
-            let mut either = mask.x[0];
-            each_of_two!(K, k => either = s.or_m64s(either, mask.x[k]));
-            s.first_true_m64s(either) < <$token as Simd>::F64_LANES
-        }
-        functions_by_vectors!();
-        #[inline(always)]
-        fn map(self, f: impl Fn(f64) -> f64) -> Self {
-            let mut x = self.lanes();
-            each!(LANES, i => x[i] = f(x[i]));
-            Self::from_lanes(self.simd, x)
-        }
-        #[inline(always)]
-        fn map2(self, o: Self, f: impl Fn(f64, f64) -> f64) -> Self {
-            let (mut a, b) = (self.lanes(), o.lanes());
-            each!(LANES, i => a[i] = f(a[i], b[i]));
-            Self::from_lanes(self.simd, a)
-        }
-        #[inline(always)]
-        fn map_pair(self, f: impl Fn(f64) -> [f64; 2]) -> [Self; 2] {
-            let (mut a, mut b) = (self.lanes(), [0.0; LANES]);
-            each!(LANES, i => [a[i], b[i]] = f(a[i]));
-            [Self::from_lanes(self.simd, a), Self::from_lanes(self.simd, b)]
-        }
-    }
-    };
-    (@one $self:ident, $simd:ident) => {{
-        let mut x = $self.x;
-        each_of_two!(K, k => x[k] = $self.simd.$simd(x[k]));
-        Self { simd: $self.simd, x }
-    }};
-    (@two $self:ident, $o:ident, $simd:ident) => {{
-        let mut x = $self.x;
-        each_of_two!(K, k => x[k] = $self.simd.$simd(x[k], $o.x[k]));
-        Self { simd: $self.simd, x }
-    }};
-    (@compare $self:ident, $o:ident, $simd:ident) => {{
-        let mut x = [$self.simd.$simd($self.x[0], $o.x[0]); K];
-        each_of_two!(K, k => x[k] = $self.simd.$simd($self.x[k], $o.x[k]));
-        WideMask { simd: $self.simd, x }
-    }};
-    (@binary $token:ty: $($trait:ident $method:ident $simd:ident),*) => {$(
-        impl<const K: usize> $trait for Wide<$token, K> {
-            type Output = Self;
+        impl Wide<$set> {
             #[inline(always)]
-            fn $method(self, o: Self) -> Self {
-                operations!(@two self, o, $simd)
+            pub(super) fn splat(simd: $set, x: f64) -> Self {
+                Self { simd, x: $over!($by splat simd, x) }
             }
         }
-    )*};
-    (@masks $token:ty: $($trait:ident $method:ident $simd:ident),*) => {$(
-        impl<const K: usize> $trait for WideMask<$token, K> {
+
+        impl fmt::Debug for Wide<$set> {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.debug_list().entries(self.array()).finish()
+            }
+        }
+
+        impl Not for WideMask<$set> {
             type Output = Self;
             #[inline(always)]
-            fn $method(self, o: Self) -> Self {
-                let mut x = self.x;
-                each_of_two!(K, k => x[k] = self.simd.$simd(x[k], o.x[k]));
-                Self { simd: self.simd, x }
+            fn not(self) -> Self {
+                Self { simd: self.simd, x: $over!($by not self.simd, self.x) }
+            }
+        }
+
+        impl Neg for Wide<$set> {
+            type Output = Self;
+            #[inline(always)]
+            fn neg(self) -> Self {
+                let sign = $over!($by splat self.simd, -0.0);
+                Self { simd: self.simd, x: $over!($by bits_xor self.simd, self.x, sign) }
+            }
+        }
+
+        impl Real for Wide<$set> {
+            type Mask = WideMask<$set>;
+
+            #[inline(always)]
+            fn of(self, x: f64) -> Self {
+                Self::splat(self.simd, x)
+            }
+            #[inline(always)]
+            fn mul_add(self, a: Self, b: Self) -> Self {
+                Self { simd: self.simd, x: $over!($by mul_add self.simd, self.x, a.x, b.x) }
+            }
+            #[inline(always)]
+            fn abs(self) -> Self {
+                let size = $over!($by splat self.simd, f64::from_bits(u64::MAX >> 1));
+                Self { simd: self.simd, x: $over!($by bits_and self.simd, self.x, size) }
+            }
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                Self { simd: self.simd, x: $over!($by sqrt self.simd, self.x) }
+            }
+            #[inline(always)]
+            fn lt(self, o: Self) -> Self::Mask {
+                WideMask { simd: self.simd, x: $over!($by lt self.simd, self.x, o.x) }
+            }
+            #[inline(always)]
+            fn le(self, o: Self) -> Self::Mask {
+                WideMask { simd: self.simd, x: $over!($by le self.simd, self.x, o.x) }
+            }
+            #[inline(always)]
+            fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
+                Self { simd: yes.simd, x: $over!($by select yes.simd, mask.x, yes.x, no.x) }
+            }
+            #[inline(always)]
+            fn max(self, o: Self) -> Self {
+                Self { simd: self.simd, x: $over!($by max self.simd, self.x, o.x) }
+            }
+            #[inline(always)]
+            fn min(self, o: Self) -> Self {
+                Self { simd: self.simd, x: $over!($by min self.simd, self.x, o.x) }
+            }
+            #[inline(always)]
+            fn any(self, mask: Self::Mask) -> bool {
+                $over!($by any self.simd, mask.x)
+            }
+            functions_by_vectors!();
+            #[inline(always)]
+            fn map(self, f: impl Fn(f64) -> f64) -> Self {
+                let mut x = self.array();
+                each!(8, i => x[i] = f(x[i]));
+                Self::of_array(self.simd, x)
+            }
+            #[inline(always)]
+            fn map2(self, o: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+                let (mut a, b) = (self.array(), o.array());
+                each!(8, i => a[i] = f(a[i], b[i]));
+                Self::of_array(self.simd, a)
+            }
+            #[inline(always)]
+            fn map_pair(self, f: impl Fn(f64) -> [f64; 2]) -> [Self; 2] {
+                let (mut a, mut b) = (self.array(), [0.0; 8]);
+                each!(8, i => [a[i], b[i]] = f(a[i]));
+                [Self::of_array(self.simd, a), Self::of_array(self.simd, b)]
+            }
+        }
+    };
+    (@all $set:ty, $over:ident $by:ident, $of:ident: $($trait:ident $name:ident),*) => {$(
+        impl $trait for $of<$set> {
+            type Output = Self;
+            #[inline(always)]
+            fn $name(self, o: Self) -> Self {
+                Self { simd: self.simd, x: $over!($by $name self.simd, self.x, o.x) }
             }
         }
     )*};
 }
-operations!(V3);
-operations!(V4);
+operations!(V3, in_one avx2);
+operations!(Two, in_two avx2);
+operations!(V4, in_one avx512);
