@@ -2,6 +2,7 @@
 
 use super::context::{Context, Fields};
 use crate::expression::quantity;
+use crate::named::Named;
 use crate::schema::{Default, Field, Takes};
 use crate::tree::Node;
 
@@ -78,6 +79,11 @@ impl<'n> Fields<'n> {
         self.value(c, key, |node| c.flag(node, key), |text| text.parse().ok())
     }
 
+    /// What a field names; `what` says what its names are names of.
+    pub(crate) fn named<T: Named>(&self, c: &Context<'_>, key: &str, what: &str) -> Option<T> {
+        self.choice(c, key, what).map(|i| T::ALL[i])
+    }
+
     /// Which of its names a field has; `what` says what they are names of.
     pub(crate) fn choice(&self, c: &Context<'_>, key: &str, what: &str) -> Option<usize> {
         let Takes::Choice(names) = self.declared(key).takes else {
@@ -91,7 +97,8 @@ impl<'n> Fields<'n> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::schema::groups;
+    use crate::BasisKind;
+    use crate::schema::{BASES, groups};
 
     /// What holds without a field can be read as the field would be.
     #[test]
@@ -113,5 +120,11 @@ mod tests {
             assert!(reads, "`{}`: {text}", field.name);
         }
         assert!(seen > 50, "{seen}");
+    }
+
+    /// Blocks that stand for the variants of an enum are in their order.
+    #[test]
+    fn blocks_have_the_names_of_what_they_stand_for() {
+        assert_eq!(BASES.names(), BasisKind::NAMES);
     }
 }

@@ -112,7 +112,7 @@ fn built_in(c: &Context<'_>, e: &Entry) -> Option<&'static Block> {
 /// A function that another crate offers.
 fn custom(c: &Context<'_>, e: &Entry, card: &'static Card, read: &ReadFunction) -> Option<Made> {
     let what = what(e);
-    let fields = c.fields(&e.value, &what, &allowed(card, &["amplitude"]))?;
+    let fields = c.fields(&e.value, &what, &allowed(card, &[schema::AMPLITUDE.name]))?;
     let at = e.value.name_span();
     let size = amplitude(c, &fields);
     let made = super::custom::made(c, &fields, (&what, &at), card, read);

@@ -36,6 +36,7 @@ mod tests;
 
 use crate::expand::{expand, has_templates};
 use crate::include::{self, OpenTexts, Whole};
+use crate::named::Named;
 use crate::schema;
 use crate::tree::{self, Kind, Node};
 use crate::units::STANDARD_GRAVITY;
@@ -213,10 +214,9 @@ fn sections(
     let top = top.with(&expanded);
     let c = &*c;
 
-    let plane = top.get("plane").and_then(|node| {
-        let all = [Plane::XZ, Plane::YZ, Plane::XY];
-        c.choice(node, "plane", &schema::PLANES).map(|i| all[i])
-    });
+    let plane = top.get("plane");
+    let plane = plane.and_then(|node| c.choice(node, "plane", Plane::NAMES));
+    let plane = plane.map(|i| Plane::ALL[i]);
     let gravity = match top.get("gravity") {
         Some(node) => {
             c.ranged(node, "gravity", d::ACCELERATION, trilith_element::Range::NonNegative)

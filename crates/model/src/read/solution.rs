@@ -4,33 +4,28 @@ use super::context::{Context, Fields};
 use super::custom;
 use super::elements::allowed;
 use crate::check::LEAST_ALPHA;
+use crate::named::Named;
+use crate::plain::plain_fields;
 use crate::registry::Reader;
 use crate::schema;
 use crate::tree::Node;
-use crate::{Basis, BasisKind, Kernel, Solution, SolverKind, StepControl};
+use crate::{Basis, BasisKind, Solution, SolverKind, StepControl};
 use trilith_element::dimension::NONE;
+
+plain_fields!(Solution: kernel, link_tolerance, energy_limit, substep_limit);
+plain_fields!(Basis: vectors, adequacy, tolerance, enrich);
 
 pub(super) fn solution(c: &Context<'_>, fields: &Fields<'_>) -> Option<Solution> {
     let plain = Solution::default();
     let solver = fields.get("solver").map_or(Some(plain.solver), |n| solver(c, n));
     let step = fields.get("step").map_or(Some(plain.step), |n| step(c, n));
-    let kernel = fields.choice(c, "kernel", "kernel");
-    let kernel = kernel.map(|i| [Kernel::Newton, Kernel::FixedPoint][i]);
-    let link_tolerance = fields.number(c, "link_tolerance");
-    let energy_limit = fields.number(c, "energy_limit");
-    let substep_limit = fields.count_if(c, "substep_limit");
+    let mut solution = Solution::default();
+    let read = solution.read(c, fields);
     let basis = fields.get("basis").map_or(Some(plain.basis), |n| basis(c, n));
     let alpha = fields.get("alpha").map_or(Some(plain.alpha), |n| alpha(c, n));
-    Some(Solution {
-        solver: solver?,
-        step: step?,
-        kernel: kernel?,
-        link_tolerance: link_tolerance?,
-        energy_limit: energy_limit?,
-        substep_limit: substep_limit?,
-        basis: basis?,
-        alpha: alpha?,
-    })
+    read?;
+    let (solver, step, basis, alpha) = (solver?, step?, basis?, alpha?);
+    Some(Solution { solver, step, basis, alpha, ..solution })
 }
 
 /// `Fna`, or the kind of another crate with its fields.
@@ -71,19 +66,9 @@ fn basis(c: &Context<'_>, node: &Node) -> Option<Basis> {
     let kind = c.choice(node, "basis", &schema::BASES.names())?;
     let block = schema::BASES.blocks[kind];
     let fields = c.block(node, &format!("`{}`", block.name), block)?;
-    let kind = [BasisKind::Ritz, BasisKind::Eigen, BasisKind::Complete][kind];
-    if kind == BasisKind::Complete {
-        return Some(Basis { kind, ..Basis::default() });
+    let mut basis = Basis { kind: BasisKind::ALL[kind], ..Basis::default() };
+    if basis.kind != BasisKind::Complete {
+        basis.read(c, &fields)?;
     }
-    let vectors = fields.count_if(c, "vectors");
-    let adequacy = fields.number(c, "adequacy");
-    let tolerance = fields.number(c, "tolerance");
-    let enrich = fields.flag(c, "enrich");
-    Some(Basis {
-        kind,
-        vectors: vectors?,
-        adequacy: adequacy?,
-        tolerance: tolerance?,
-        enrich: enrich?,
-    })
+    Some(basis)
 }

@@ -11,15 +11,14 @@ use trilith_element::Dimension;
 use trilith_element::dimension::{NONE, TIME};
 
 fn style(c: &Context<'_>, fields: &Fields<'_>) -> Option<(Interpolation, AfterEnd)> {
-    let interpolation = fields.choice(c, "interpolation", "interpolation");
+    let interpolation = fields.named(c, "interpolation", "interpolation");
     let after = after_end(c, fields);
-    Some(([Interpolation::Linear, Interpolation::Cubic][interpolation?], after?))
+    Some((interpolation?, after?))
 }
 
 /// What holds after the end.
 pub(super) fn after_end(c: &Context<'_>, fields: &Fields<'_>) -> Option<AfterEnd> {
-    let after = fields.choice(c, "after_end", "end of a table");
-    Some([AfterEnd::Error, AfterEnd::Zero, AfterEnd::Hold][after?])
+    fields.named(c, "after_end", "end of a table")
 }
 
 pub(super) fn table(c: &Context<'_>, e: &Entry) -> Option<Made> {

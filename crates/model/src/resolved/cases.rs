@@ -1,109 +1,112 @@
 //! Cases of a resolved model.
 
-use super::{custom, factor, text};
+use super::BlockText;
+use crate::named::Named;
+use crate::schema;
 use crate::{
-    Analysis, Basis, BasisKind, Combination, CombinationTerm, DynamicCase, Kernel, Load, Model,
-    Solution, SolverKind, StepControl,
+    Analysis, BasisKind, Combination, CombinationTerm, DynamicCase, Load, Model, Solution,
+    SolverKind, StepControl,
 };
-use trilith_element::Dimension;
 use trilith_element::dimension::{ACCELERATION, LENGTH, NONE};
+use trilith_element::{Dimension, Dof};
 
 pub(super) fn case(model: &Model, c: &crate::Case) -> String {
-    let after =
-        c.after.map_or(String::new(), |i| format!("after: {}, ", text(&model.cases[i].name)));
+    let begin = |block| {
+        let text = BlockText::new(block);
+        match c.after {
+            Some(i) => text.named("after", &model.cases[i].name),
+            None => text,
+        }
+    };
     match &c.analysis {
         Analysis::Static(s) => {
-            format!("Static({after}loads: {}, steps: {})", loads(model, &s.loads), s.steps)
+            begin(&schema::STATIC).list("loads", loads(model, &s.loads)).count("steps", s.steps)
         }
-        Analysis::Dynamic(d) => format!("Dynamic({after}{})", dynamic(model, d)),
+        Analysis::Dynamic(d) => dynamic(model, d, begin(&schema::DYNAMIC)),
     }
+    .end()
 }
 
-fn loads(model: &Model, all: &[Load]) -> String {
-    let one = |load: &Load| match load {
-        Load::Gravity { factor } => format!("Gravity(factor: {factor:?})"),
-        Load::Pattern { pattern, factor } => {
-            format!("(load: {}, factor: {factor:?})", text(&model.patterns[*pattern].name))
+fn loads<'a>(model: &'a Model, all: &'a [Load]) -> impl Iterator<Item = String> + 'a {
+    all.iter().map(|load| {
+        match load {
+            Load::Gravity { factor } => BlockText::new(&schema::GRAVITY).number("factor", *factor),
+            Load::Pattern { pattern, factor } => {
+                let text = BlockText::new(&schema::LOAD);
+                text.named("load", &model.patterns[*pattern].name).number("factor", *factor)
+            }
         }
-    };
-    format!("[{}]", all.iter().map(one).collect::<Vec<_>>().join(", "))
+        .end()
+    })
 }
 
-fn list<T>(items: &[T], one: impl Fn(&T) -> String) -> String {
-    format!("[{}]", items.iter().map(one).collect::<Vec<_>>().join(", "))
-}
-
-fn dynamic(model: &Model, d: &DynamicCase) -> String {
+fn dynamic(model: &Model, d: &DynamicCase, text: BlockText) -> BlockText {
     // What function and factor must give together decides the unit of the factor.
-    let history = |key: &str, function: usize, by: f64, wanted: Dimension| {
+    let history = |text: BlockText, key, function: usize, by: f64, wanted: Dimension| {
         let f = &model.functions[function];
         let unit = f.dimension.map_or(NONE, |own| wanted / own);
-        format!("{key}: {}, factor: {}", text(&f.name), factor(by, unit))
+        text.named(key, &f.name).quantity("factor", by, unit).end()
     };
-    let place = |node: usize, dof: trilith_element::Dof| {
-        format!("node: {}, dof: {}", text(&model.nodes[node].name), dof.name())
+    let block = |group: &schema::Group| BlockText::new(group.blocks[0]);
+    let place = |text: BlockText, node: usize, dof: Dof| {
+        text.named("node", &model.nodes[node].name).choice("dof", dof.name())
     };
-    let base = list(&d.base, |b| {
-        let history = history("function", b.function, b.factor, ACCELERATION);
-        format!("(direction: {}, {history})", ["X", "Y", "Z"][b.direction.index() % 3])
+    let base = d.base.iter().map(|b| {
+        let text = block(&schema::BASE_MOTION);
+        let direction = schema::BASE_DIRECTIONS[b.direction.index() % 3];
+        let text = text.choice("direction", direction);
+        history(text, "function", b.function, b.factor, ACCELERATION)
     });
-    let forces = list(&d.forces, |f| {
-        let history = history("function", f.function, f.factor, NONE);
-        format!("(load: {}, {history})", text(&model.patterns[f.pattern].name))
+    let forces = d.forces.iter().map(|f| {
+        let text = block(&schema::FORCE_HISTORY).named("load", &model.patterns[f.pattern].name);
+        history(text, "function", f.function, f.factor, NONE)
     });
-    let supports = list(&d.supports, |s| {
+    let supports = d.supports.iter().map(|s| {
         let wanted = if s.dof.is_rotation() { NONE } else { LENGTH };
-        let history = history("displacement", s.function, s.factor, wanted);
-        format!("({}, {history})", place(s.node, s.dof))
+        let text = place(block(&schema::SUPPORT_MOTION), s.node, s.dof);
+        history(text, "displacement", s.function, s.factor, wanted)
     });
-    let initial = list(&d.initial, |i| {
-        let u = i.displacement.map_or(String::new(), |x| format!(", displacement: {x:?}"));
-        let v = i.velocity.map_or(String::new(), |x| format!(", velocity: {x:?}"));
-        format!("({}{u}{v})", place(i.node, i.dof))
+    let initial = d.initial.iter().map(|i| {
+        let mut text = place(block(&schema::INITIAL), i.node, i.dof);
+        for (key, x) in [("displacement", i.displacement), ("velocity", i.velocity)] {
+            if let Some(x) = x {
+                text = text.value(key, format!("{x:?}"));
+            }
+        }
+        text.end()
     });
-    format!(
-        "duration: {:?}, dt: {:?}, constant: {}, base: {base}, forces: {forces}, \
-         supports: {supports}, initial: {initial}, {}",
-        d.duration,
-        d.dt,
-        loads(model, &d.constant),
-        solution(model, &d.solution)
-    )
+    let text = text.number("duration", d.duration).number("dt", d.dt);
+    let text = text.list("constant", loads(model, &d.constant)).list("base", base);
+    let text = text.list("forces", forces).list("supports", supports).list("initial", initial);
+    solution(model, &d.solution, text)
 }
 
-fn solution(model: &Model, s: &Solution) -> String {
-    let solver = match s.solver {
-        SolverKind::Fna => "Fna".into(),
-        SolverKind::Hht => "Hht".into(),
-        SolverKind::RitzHht => "RitzHht".into(),
-        SolverKind::FullNewton => "FullNewton".into(),
-        SolverKind::Custom { name, at, .. } => {
-            model.solvers.get(at).map_or_else(|| name.into(), |s| custom(s.card, &s.values, &[]))
+fn solution(model: &Model, s: &Solution, text: BlockText) -> BlockText {
+    let solver = SolverKind::ALL.iter().position(|kind| *kind == s.solver);
+    let text = match (s.solver, solver) {
+        (SolverKind::Custom { at, .. }, _) if at < model.solvers.len() => {
+            let own = &model.solvers[at];
+            let kind = BlockText::of_kind(own.card.kind).values(&own.values);
+            text.value("solver", kind.end())
         }
+        (SolverKind::Custom { name, .. }, _) => text.value("solver", name.into()),
+        (_, at) => text.choice("solver", schema::SOLVERS[at.unwrap_or(0)]),
     };
     let step = match s.step {
-        StepControl::Adaptive { tolerance } => format!("Adaptive(tolerance: {tolerance:?})"),
-        StepControl::Fixed { substeps } => format!("Fixed(substeps: {substeps})"),
+        StepControl::Adaptive { tolerance } => {
+            BlockText::new(&schema::ADAPTIVE).number("tolerance", tolerance)
+        }
+        StepControl::Fixed { substeps } => {
+            BlockText::new(&schema::FIXED).count("substeps", substeps)
+        }
     };
-    let kernel = match s.kernel {
-        Kernel::Newton => "Newton",
-        Kernel::FixedPoint => "FixedPoint",
-    };
-    let vectors = s.basis.vectors.map_or(String::new(), |n| format!("vectors: {n}, "));
-    let Basis { adequacy, tolerance, enrich, .. } = s.basis;
-    let fields =
-        format!("{vectors}adequacy: {adequacy:?}, tolerance: {tolerance:?}, enrich: {enrich}");
+    let basis = BlockText::new(schema::BASES.blocks[s.basis.kind.index()]);
     let basis = match s.basis.kind {
-        BasisKind::Ritz => format!("Ritz({fields})"),
-        BasisKind::Eigen => format!("Eigen({fields})"),
-        BasisKind::Complete => "Complete".into(),
+        BasisKind::Complete => basis,
+        BasisKind::Ritz | BasisKind::Eigen => s.basis.write(basis),
     };
-    let limit = s.substep_limit.map_or(String::new(), |n| format!("substep_limit: {n}, "));
-    format!(
-        "solver: {solver}, step: {step}, kernel: {kernel}, link_tolerance: {:?}, energy_limit: {:?}, \
-         {limit}basis: {basis}, alpha: {:?}",
-        s.link_tolerance, s.energy_limit, s.alpha
-    )
+    let text = s.write(text.value("step", step.end()));
+    text.value("basis", basis.end()).number("alpha", s.alpha)
 }
 
 pub(super) fn combination(model: &Model, it: &Combination) -> String {
@@ -112,8 +115,9 @@ pub(super) fn combination(model: &Model, it: &Combination) -> String {
             CombinationTerm::Case(i) => &model.cases[i].name,
             CombinationTerm::Combination(i) => &model.combinations[i].name,
         };
-        format!("{}: {factor:?}", text(name))
+        format!("{}: {factor:?}", super::text(name))
     };
     let terms: Vec<_> = it.terms.iter().map(term).collect();
-    format!("{}(cases: {{ {} }})", it.how.name(), terms.join(", "))
+    let block = schema::COMBINATIONS.blocks[it.how as usize];
+    BlockText::new(block).value("cases", format!("{{ {} }}", terms.join(", "))).end()
 }

@@ -1,20 +1,22 @@
 //! A model as a file with every default filled in and every expression evaluated.
 
+mod block;
 mod cases;
 mod loads;
 mod outputs;
 mod spectra;
 
 use crate::matrices::written;
+use crate::named::Named;
 use crate::read::CONTENTS;
-use crate::{
-    AfterEnd, Body, Damping, Harmonic, Interpolation, Model, ParameterValue, Pattern, Plane,
-    TimeFunction,
-};
+use crate::schema;
+use crate::{Body, Damping, Harmonic, Model, ParameterValue, Pattern, TimeFunction};
+pub(crate) use block::BlockText;
+use block::list;
 use cases::{case, combination};
 use outputs::output;
 use std::fmt::Write;
-use trilith_element::{Card, Dimension, Dof, Frame, Value, Values, Vector3};
+use trilith_element::{Dimension, Dof, Frame, Value, Values, Vector3};
 
 /// The model as a RON text in SI that reads back to the same model.
 ///
@@ -70,16 +72,11 @@ fn written_with(model: &Model, replacement: Option<&Replacement<'_>>) -> String 
         w.line(0, &format!("// {} = {}", p.name, value.replace('"', "")));
     }
     w.line(0, "(");
-    w.line(1, &format!("title: {},", text(&model.title)));
+    w.field("title", &text(&model.title));
     if let Some(plane) = model.plane {
-        let name = match plane {
-            Plane::XZ => "XZ",
-            Plane::YZ => "YZ",
-            Plane::XY => "XY",
-        };
-        w.line(1, &format!("plane: {name},"));
+        w.field("plane", plane.name());
     }
-    w.line(1, &format!("gravity: {:?},", model.gravity));
+    w.field("gravity", &format!("{:?}", model.gravity));
     let nodes = model.nodes.iter().enumerate().filter(|(i, _)| stays(without_nodes, *i));
     w.map("nodes", nodes, |(_, n)| (n.name.clone(), vector(n.position)));
     w.map("supports", &model.supports, |s| {
@@ -93,9 +90,9 @@ fn written_with(model: &Model, replacement: Option<&Replacement<'_>>) -> String 
         .collect();
     elements.extend(replacement.map(|r| (r.name.to_owned(), replaced(model, r))));
     w.map("elements", elements, |e| e);
-    w.line(1, &format!("damping: {},", damping(&model.damping)));
+    w.field("damping", &damping(&model.damping));
     if let Some(case) = model.p_delta {
-        w.line(1, &format!("p_delta: {},", text(&model.cases[case].name)));
+        w.field("p_delta", &text(&model.cases[case].name));
     }
     w.map("functions", &model.functions, |f| (f.name.clone(), function(&f.function, f.dimension)));
     let patterns = replacement.map_or(&model.patterns[..], |r| r.patterns);
@@ -125,6 +122,10 @@ impl Writer {
     fn line(&mut self, indent: usize, line: &str) {
         // Writing to a String cannot fail.
         let _ = writeln!(self.0, "{:1$}{line}", "", 4 * indent);
+    }
+
+    fn field(&mut self, name: &str, value: &str) {
+        self.line(1, &format!("{name}: {value},"));
     }
 
     fn map<T>(
@@ -201,34 +202,33 @@ fn value(v: &Value) -> String {
     }
 }
 
-/// Nodes and parameters.
-fn fields(model: &Model, nodes: &[usize], values: &Values) -> Vec<String> {
-    let nodes: Vec<String> = nodes.iter().map(|&i| text(&model.nodes[i].name)).collect();
-    let mut fields = vec![format!("nodes: [{}]", nodes.join(", "))];
-    fields.extend(values.0.iter().map(|(name, v)| format!("{name}: {}", value(v))));
-    fields
+/// A kind of element with its nodes and parameters.
+fn kind(model: &Model, kind: &str, nodes: &[usize], values: &Values) -> BlockText {
+    let nodes = nodes.iter().map(|&i| text(&model.nodes[i].name));
+    BlockText::of_kind(kind).with(schema::PLACE.fields).list("nodes", nodes).values(values)
 }
 
 fn replaced(model: &Model, r: &Replacement<'_>) -> String {
-    format!("{}({})", r.kind, fields(model, r.nodes, r.values).join(", "))
+    kind(model, r.kind, r.nodes, r.values).end()
 }
 
 fn element(model: &Model, e: &crate::Element) -> String {
-    let mut fields = fields(model, &e.nodes, &e.values);
-    for (name, axis) in ["axis1", "axis2"].iter().zip(axes(model, e)) {
-        fields.extend(axis.map(|a| format!("{name}: {}", vector(a))));
+    let mut text = kind(model, e.kind, &e.nodes, &e.values).with(schema::ELEMENT.fields);
+    for (name, axis) in ["axis1", "axis2"].into_iter().zip(axes(model, e)) {
+        if let Some(axis) = axis {
+            text = text.value(name, vector(axis));
+        }
     }
     if let Body::Link(_, options) = &e.body {
-        fields.push(format!("shear_at: {:?}", options.shear_at));
+        text = text.with(schema::LINK.fields).number("shear_at", options.shear_at);
         if let Some([i, j]) = options.p_delta_at {
-            fields.push(format!("p_delta_at: ({i:?}, {j:?})"));
+            text = text.value("p_delta_at", format!("({i:?}, {j:?})"));
         }
         if let Some(k) = &options.effective_stiffness {
-            let k: Vec<String> = k.iter().map(|x| format!("{x:?}")).collect();
-            fields.push(format!("effective_stiffness: [{}]", k.join(", ")));
+            text = text.list("effective_stiffness", k.iter().map(|x| format!("{x:?}")));
         }
     }
-    format!("{}({})", e.kind, fields.join(", "))
+    text.end()
 }
 
 /// Directions of local axes as the file gives them; those of the frame where an element made in code has another one.
@@ -246,78 +246,57 @@ fn axes(model: &Model, e: &crate::Element) -> [Option<Vector3>; 2] {
 
 fn damping(d: &Damping) -> String {
     match d {
-        Damping::None => "None".into(),
-        Damping::Modal { ratio } => format!("Modal(ratio: {ratio:?})"),
+        Damping::None => BlockText::new(&schema::NO_DAMPING),
+        Damping::Modal { ratio } => BlockText::new(&schema::MODAL).number("ratio", *ratio),
         Damping::ModalTable { points } => {
-            let points: Vec<String> =
-                points.iter().map(|(f, r)| format!("({f:?}, {r:?})")).collect();
-            format!("ModalTable(points: [{}])", points.join(", "))
+            let points = points.iter().map(|(f, r)| format!("({f:?}, {r:?})"));
+            BlockText::new(&schema::MODAL_TABLE).list("points", points)
         }
         Damping::Rayleigh { mass, stiffness } => {
-            format!("Rayleigh(mass: {mass:?}, stiffness: {stiffness:?})")
+            let text = BlockText::new(&schema::RAYLEIGH).number("mass", *mass);
+            text.number("stiffness", *stiffness)
         }
     }
+    .end()
 }
 
 fn function(f: &TimeFunction, d: Option<Dimension>) -> String {
-    let amount = |x: f64| measured(x, d);
-    let harmonic = |name: &str, h: &Harmonic| {
-        let cycles = h.cycles.map_or(String::new(), |n| format!("cycles: {n:?}, "));
-        format!(
-            "{name}(amplitude: {}, frequency: {:?}, {cycles}start: {:?}, phase: {:?})",
-            amount(h.amplitude),
-            h.frequency,
-            h.start,
-            h.phase
-        )
+    let amplitude = |block, x: f64| BlockText::new(block).value("amplitude", measured(x, d));
+    let harmonic = |block, h: &Harmonic| {
+        let text = amplitude(block, h.amplitude).number("frequency", h.frequency);
+        text.number_if("cycles", h.cycles).number("start", h.start).number("phase", h.phase)
     };
     match f {
-        TimeFunction::Constant(c) => format!("Constant(value: {})", amount(*c)),
-        TimeFunction::Step { amplitude, start, end } => {
-            let end = end.map_or(String::new(), |e| format!(", end: {e:?}"));
-            format!("Step(amplitude: {}, start: {start:?}{end})", amount(*amplitude))
+        TimeFunction::Constant(c) => {
+            BlockText::new(&schema::CONSTANT).value("value", measured(*c, d))
         }
-        TimeFunction::Ramp { amplitude, start, rise } => {
-            format!("Ramp(amplitude: {}, start: {start:?}, rise: {rise:?})", amount(*amplitude))
+        TimeFunction::Step { amplitude: a, start, end } => {
+            amplitude(&schema::STEP, *a).number("start", *start).number_if("end", *end)
         }
-        TimeFunction::Sine(h) => harmonic("Sine", h),
-        TimeFunction::Cosine(h) => harmonic("Cosine", h),
-        TimeFunction::HalfSine { amplitude, duration, start } => format!(
-            "HalfSine(amplitude: {}, duration: {duration:?}, start: {start:?})",
-            amount(*amplitude)
-        ),
-        TimeFunction::Ricker { amplitude, frequency, center } => format!(
-            "Ricker(amplitude: {}, frequency: {frequency:?}, center: {center:?})",
-            amount(*amplitude)
-        ),
+        TimeFunction::Ramp { amplitude: a, start, rise } => {
+            amplitude(&schema::RAMP, *a).number("start", *start).number("rise", *rise)
+        }
+        TimeFunction::Sine(h) => harmonic(&schema::SINE, h),
+        TimeFunction::Cosine(h) => harmonic(&schema::COSINE, h),
+        TimeFunction::HalfSine { amplitude: a, duration, start } => {
+            amplitude(&schema::HALF_SINE, *a).number("duration", *duration).number("start", *start)
+        }
+        TimeFunction::Ricker { amplitude: a, frequency, center } => {
+            let text = amplitude(&schema::RICKER, *a).number("frequency", *frequency);
+            text.number("center", *center)
+        }
         TimeFunction::Custom(it) => {
-            let amplitude = format!("amplitude: {}", amount(it.amplitude));
-            custom(it.card, &it.values, &[amplitude])
+            let text = BlockText::of_kind(it.card.kind).with(&[schema::AMPLITUDE]);
+            text.value("amplitude", measured(it.amplitude, d)).values(&it.values)
         }
         TimeFunction::Table(table) => {
             let pairs = table.times().iter().zip(table.values());
-            let points: Vec<String> =
-                pairs.map(|(t, y)| format!("({t:?}, {})", amount(*y))).collect();
-            let interpolation = match table.interpolation() {
-                Interpolation::Linear => "Linear",
-                Interpolation::Cubic => "Cubic",
-            };
-            let after = match table.after_end() {
-                AfterEnd::Error => "Error",
-                AfterEnd::Zero => "Zero",
-                AfterEnd::Hold => "Hold",
-            };
-            format!(
-                "Points(interpolation: {interpolation}, after_end: {after}, points: [{}])",
-                points.join(", ")
-            )
+            let points = pairs.map(|(t, y)| format!("({t:?}, {})", measured(*y, d)));
+            BlockText::new(&schema::POINTS)
+                .choice("interpolation", table.interpolation().name())
+                .choice("after_end", table.after_end().name())
+                .list("points", points)
         }
     }
-}
-
-/// What another crate offers, with fields of its own before those of its card.
-fn custom(card: &Card, values: &Values, own: &[String]) -> String {
-    let fields = values.0.iter().map(|(name, v)| format!("{name}: {}", value(v)));
-    let fields: Vec<String> = own.iter().cloned().chain(fields).collect();
-    format!("{}({})", card.kind, fields.join(", "))
+    .end()
 }

@@ -1,58 +1,55 @@
 //! Outputs of a resolved model.
 
-use super::{custom, factor, text, vector};
+use super::{BlockText, list, text, vector};
 use crate::read::nodal_dimension;
-use crate::schema::BASE_DIRECTIONS;
+use crate::schema;
 use crate::units;
 use crate::{Body, Combine, Envelope, LinkTerm, Model, NodalTerm, Output, Quantity};
 use trilith_element::dimension::{FORCE, LENGTH, MOMENT, NONE};
 use trilith_element::{Coordinates, Dimension};
 
 pub(super) fn output(model: &Model, o: &Output) -> String {
-    let mut text = quantity(model, o);
-    if o.hidden {
-        // Every kind has fields.
-        text.truncate(text.len() - 1);
-        text += ", hidden: true)";
-    }
-    text
+    quantity(model, o).flag("hidden", o.hidden).end()
 }
 
-fn quantity(model: &Model, o: &Output) -> String {
+fn quantity(model: &Model, o: &Output) -> BlockText {
     // The unit of an output is that of factor times quantity: it tells the unit of the factor.
     let total = units::dimension(&o.unit).unwrap_or(NONE);
-    let terms = |terms: &[NodalTerm], order: usize| {
+    let nodal = |block, terms: &[NodalTerm], order: usize| {
         let one = |t: &NodalTerm| {
             let own = nodal_dimension(order, t.dof.is_rotation());
-            let node = text(&model.nodes[t.node].name);
-            let by = factor(t.factor, total / own);
-            format!("(node: {node}, dof: {}, factor: {by})", t.dof.name())
+            let term = BlockText::new(schema::TERM.blocks[0]);
+            let term = term.named("node", &model.nodes[t.node].name);
+            term.choice("dof", t.dof.name()).quantity("factor", t.factor, total / own).end()
         };
-        format!("terms: [{}]", terms.iter().map(one).collect::<Vec<_>>().join(", "))
+        BlockText::new(block).list("terms", terms.iter().map(one))
     };
     let names = |all: &mut dyn Iterator<Item = usize>| {
         let all: Vec<String> = all.map(|i| text(&model.elements[i].name)).collect();
-        if let [one] = &all[..] { one.clone() } else { format!("[{}]", all.join(", ")) }
+        if let [one] = &all[..] { one.clone() } else { list(all.into_iter()) }
     };
-    let link = |all: &[LinkTerm], force: bool| {
+    let factor =
+        |text: BlockText, by: f64, own: Dimension| text.quantity("factor", by, total / own);
+    let link = |block, all: &[LinkTerm], force: bool| {
         let LinkTerm { element, coordinate, factor: by } = all[0];
-        let (place, rotation) = place(model, element, coordinate);
-        let own = own(force, rotation);
-        let names = names(&mut all.iter().map(|t| t.element));
-        format!("link: {names}, {place}, factor: {}", factor(by, total / own))
+        let text = BlockText::new(block).value("link", names(&mut all.iter().map(|t| t.element)));
+        let (text, rotation) = place(model, element, coordinate, text);
+        factor(text, by, own(force, rotation))
     };
     match &o.quantity {
-        Quantity::Displacement(all) => format!("Displacement({})", terms(all, 0)),
-        Quantity::Velocity(all) => format!("Velocity({})", terms(all, 1)),
+        // All terms have their factors.
+        Quantity::Displacement(all) => nodal(&schema::DISPLACEMENT, all, 0).without("factor"),
+        Quantity::Velocity(all) => nodal(&schema::VELOCITY, all, 1).without("factor"),
         Quantity::Acceleration { terms: all, absolute } => {
-            format!("Acceleration({}, absolute: {absolute})", terms(all, 2))
+            let text = nodal(&schema::ACCELERATION, all, 2).without("factor");
+            text.flag("absolute", *absolute)
         }
         Quantity::LinkDeformation { element, coordinate, factor } => {
             let (element, coordinate, factor) = (*element, *coordinate, *factor);
             let term = LinkTerm { element, coordinate, factor };
-            format!("LinkDeformation({})", link(&[term], false))
+            link(&schema::LINK_DEFORMATION, &[term], false)
         }
-        Quantity::LinkForce(terms) => format!("LinkForce({})", link(terms, true)),
+        Quantity::LinkForce(terms) => link(&schema::LINK_FORCE, terms, true),
         Quantity::LinkHistory { element, field } => {
             let e = &model.elements[*element];
             let variable = match &e.body {
@@ -60,66 +57,72 @@ fn quantity(model: &Model, o: &Output) -> String {
                 _ => None,
             }
             .unwrap_or_default();
-            format!("LinkHistory(link: {}, variable: {})", text(&e.name), text(&variable))
+            let text = BlockText::new(&schema::LINK_HISTORY).named("link", &e.name);
+            text.named("variable", &variable)
         }
         Quantity::ElementForce { elements, end, dof, factor: by } => {
-            let own = own(true, dof.is_rotation());
             let name = names(&mut elements.iter().copied());
-            let by = factor(*by, total / own);
-            format!("ElementForce(element: {name}, end: {end}, dof: {}, factor: {by})", dof.name())
+            let text = BlockText::new(&schema::ELEMENT_FORCE).value("element", name);
+            let text = text.count("end", *end).choice("dof", dof.name());
+            factor(text, *by, own(true, dof.is_rotation()))
         }
         Quantity::MemberForce { element, force, at, factor: by } => {
-            let by = factor(*by, total / own(true, force.is_moment()));
-            let name = text(&model.elements[*element].name);
-            format!(
-                "MemberForce(element: {name}, force: {}, at: {at:?}, factor: {by})",
-                force.name()
-            )
+            let text = BlockText::new(&schema::MEMBER_FORCE);
+            let text = text.named("element", &model.elements[*element].name);
+            let text = text.choice("force", force.name()).value("at", format!("{at:?}"));
+            factor(text, *by, own(true, force.is_moment()))
         }
         Quantity::BaseShear { direction } => {
-            format!("BaseShear(direction: {})", BASE_DIRECTIONS[direction.index()])
+            let direction = schema::BASE_DIRECTIONS[direction.index()];
+            BlockText::new(&schema::BASE_SHEAR).choice("direction", direction)
         }
         Quantity::Overturning { direction, about } => {
-            let (direction, about) = (BASE_DIRECTIONS[direction.index()], vector(*about));
-            format!("Overturning(direction: {direction}, about: {about})")
+            let direction = schema::BASE_DIRECTIONS[direction.index()];
+            let text = BlockText::new(&schema::OVERTURNING).choice("direction", direction);
+            text.value("about", vector(*about))
         }
         Quantity::Reaction { nodes, dof, factor: by } => {
-            let by = factor(*by, total / own(true, dof.is_rotation()));
-            let all = nodes.iter().map(|i| text(&model.nodes[*i].name));
-            let all = all.collect::<Vec<_>>().join(", ");
-            format!("Reaction(node: [{all}], dof: {}, factor: {by})", dof.name())
+            let nodes = nodes.iter().map(|i| super::text(&model.nodes[*i].name));
+            let text = BlockText::new(&schema::REACTION).list("node", nodes);
+            factor(text.choice("dof", dof.name()), *by, own(true, dof.is_rotation()))
         }
         Quantity::Combination { how, constant, terms } => {
             let one = |(i, by): &(usize, f64)| {
                 let other = &model.outputs[*i];
-                let own = units::dimension(&other.unit).unwrap_or(NONE);
-                format!("(output: {}, factor: {})", text(&other.name), factor(*by, total / own))
+                let part = BlockText::new(schema::PARTS.blocks[0]).named("output", &other.name);
+                factor(part, *by, units::dimension(&other.unit).unwrap_or(NONE)).end()
             };
-            let terms = terms.iter().map(one).collect::<Vec<_>>().join(", ");
-            let name = Combine::NAMES[*how as usize];
-            let constant = match how {
-                Combine::Sum => format!(", constant: {}", factor(*constant, total)),
-                _ => String::new(),
+            let (block, constant) = match how {
+                Combine::Sum => (&schema::SUM, Some(*constant)),
+                Combine::Norm => (&schema::NORM, None),
+                Combine::Largest => (&schema::LARGEST, None),
+                Combine::Smallest => (&schema::SMALLEST, None),
             };
-            format!("{name}(terms: [{terms}]{constant})")
+            let text = BlockText::new(block).list("terms", terms.iter().map(one));
+            match constant {
+                Some(constant) => text.quantity("constant", constant, total),
+                None => text,
+            }
         }
         Quantity::Derived(derived) => {
-            let of = derived.of.iter().map(|i| text(&model.outputs[*i].name));
-            let of = format!("of: [{}]", of.collect::<Vec<_>>().join(", "));
-            custom(derived.card, &derived.values, &[of])
+            let of = derived.of.iter().map(|i| super::text(&model.outputs[*i].name));
+            let text = BlockText::of_kind(derived.card.kind).with(&schema::DERIVED);
+            text.list("of", of).values(&derived.values)
         }
     }
 }
 
 pub(super) fn envelope(model: &Model, e: &Envelope) -> String {
-    let all = e.members.iter().map(|m| text(&model.elements[m.element].name));
-    let elements = all.collect::<Vec<_>>().join(", ");
-    let Some(first) = e.members.first() else { return "()".into() };
+    let text = BlockText::new(schema::ENVELOPES.blocks[0]);
+    let all = e.members.iter().map(|m| super::text(&model.elements[m.element].name));
+    let text = text.list("element", all);
+    let Some(first) = e.members.first() else { return text.count("stations", 2).end() };
+    let text = text.count("stations", first.stations.len());
     // Members of one envelope may lie in the plane differently.
-    let alike = e.members.iter().all(|m| m.forces == first.forces);
-    let names = first.forces.iter().map(|f| f.name()).collect::<Vec<_>>().join(", ");
-    let forces = if alike { format!(", forces: [{names}]") } else { String::new() };
-    format!("(element: [{elements}], stations: {}{forces})", first.stations.len())
+    match e.members.iter().all(|m| m.forces == first.forces) {
+        true => text.list("forces", first.forces.iter().map(|f| f.name().into())).end(),
+        false => text.end(),
+    }
 }
 
 fn own(force: bool, rotation: bool) -> Dimension {
@@ -132,12 +135,12 @@ fn own(force: bool, rotation: bool) -> Dimension {
 }
 
 /// The coordinate of a link as the file names it, and whether it is a rotation.
-fn place(model: &Model, element: usize, coordinate: usize) -> (String, bool) {
+fn place(model: &Model, element: usize, coordinate: usize, text: BlockText) -> (BlockText, bool) {
     if let Body::Link(law, _) = &model.elements[element].body
         && let Coordinates::Local(axes) = law.coordinates()
     {
         let axis = axes[coordinate];
-        return (format!("axis: {}", axis.name()), axis.index() > 2);
+        return (text.choice("axis", axis.name()), axis.index() > 2);
     }
-    (format!("coordinate: {coordinate}"), coordinate % 6 > 2)
+    (text.count("coordinate", coordinate), coordinate % 6 > 2)
 }

@@ -2,7 +2,9 @@
 
 use super::Takes::{Choice, Count, Flag, List, Name, Number, One, Quantity};
 use super::{Block, Field, Group, absent, needed, plain};
+use crate::Kernel;
 use crate::check::TOLERANCE as SHARE;
+use crate::named::Named;
 use trilith_element::Range::{Any, Positive, Within};
 use trilith_element::dimension as d;
 
@@ -13,7 +15,7 @@ pub static BASE_DIRECTIONS: [&str; 6] = ["X", "Y", "Z", "Ux", "Uy", "Uz"];
 /// Solvers.
 pub static SOLVERS: [&str; 4] = ["Fna", "Hht", "RitzHht", "FullNewton"];
 /// Ways to solve the link equations.
-pub static KERNELS: [&str; 2] = ["Newton", "FixedPoint"];
+pub static KERNELS: &[&str] = Kernel::NAMES;
 
 /// Own weight.
 pub static GRAVITY: Block = Block {
@@ -243,7 +245,7 @@ pub static DYNAMIC: Block = Block {
         plain("step", One(&STEPS), "Adaptive", "Step control."),
         plain(
             "kernel",
-            Choice(&KERNELS),
+            Choice(KERNELS),
             "Newton",
             "Solution of the link equations: Newton with full tangents, or the constant-stiffness iteration of Wilson.",
         ),

@@ -2,27 +2,30 @@
 
 use super::Takes::{Choice, Count, Name, Number, Quantity, Text, Words};
 use super::{Block, Field, Group, RECORD, SYNTHETIC, absent, needed, plain};
+use crate::named::Named;
+use crate::{AfterEnd, Interpolation};
 use trilith_element::Range::{Any, Positive};
 use trilith_element::dimension as d;
 
 /// Interpolation of tables.
-pub static INTERPOLATIONS: [&str; 2] = ["Linear", "Cubic"];
+pub static INTERPOLATIONS: &[&str] = Interpolation::NAMES;
 /// What holds after a table.
-pub static AFTER_END: [&str; 3] = ["Error", "Zero", "Hold"];
+pub static AFTER_END: &[&str] = AfterEnd::NAMES;
 
-const AMPLITUDE: Field =
+/// What any function of another crate takes beside its card.
+pub const AMPLITUDE: Field =
     needed("amplitude", Quantity, "Largest value; its unit is the unit of the function.");
 const START: Field =
     plain("start", Number(d::TIME, Any), "0", "Time at which it begins; zero before.");
 const INTERPOLATION: Field = plain(
     "interpolation",
-    Choice(&INTERPOLATIONS),
+    Choice(INTERPOLATIONS),
     "Linear",
     "Between samples: straight lines, or a natural cubic spline.",
 );
 const END: Field = plain(
     "after_end",
-    Choice(&AFTER_END),
+    Choice(AFTER_END),
     "Error",
     "After the last sample: no case may last longer, zero, or the last value.",
 );

@@ -91,7 +91,7 @@ pub static RESAMPLE: Group = Group {
 };
 const END: Field = plain(
     "after_end",
-    Choice(&AFTER_END),
+    Choice(AFTER_END),
     "Zero",
     "After the last sample: no case may last longer, zero, or the last value.",
 );

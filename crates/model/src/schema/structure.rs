@@ -5,12 +5,14 @@ use super::{
     Block, CASES, COMBINATIONS, ENVELOPES, FUNCTIONS, Field, Group, OUTPUTS, SPECTRA, absent,
     needed, plain,
 };
+use crate::Plane;
 use crate::check::RATIO;
+use crate::named::Named;
 use trilith_element::Range::{NonNegative, Positive};
 use trilith_element::dimension as d;
 
 /// Coordinate planes.
-pub static PLANES: [&str; 3] = ["XZ", "YZ", "XY"];
+pub static PLANES: &[&str] = Plane::NAMES;
 /// Words for whole supports.
 pub static SUPPORTS: [&str; 2] = ["Fixed", "Pinned"];
 
@@ -33,7 +35,7 @@ pub static MODEL: Group = Group {
             absent("units", One(&UNITS), "SI", "What bare numbers are measured in."),
             absent(
                 "plane",
-                Choice(&PLANES),
+                Choice(PLANES),
                 "all of space",
                 "Motion stays in this plane: the other three directions of every node are fixed.",
             ),
