@@ -48,7 +48,7 @@ mod way;
 use law::{HISTORY, Law};
 use serde::Deserialize;
 use std::borrow::Cow;
-use trilith_element::lanes::{LaneAt, LaneForce, LaneForm, LaneLaw, respond};
+use trilith_element::lanes::{LaneAt, LaneForce, LaneForm, respond};
 use trilith_element::{Axis, Choices, Coordinates, Field, Kinematics, Link, Parameters, Response};
 
 /// How an [`IbarraMedinaKrawinkler`] reloads.
