@@ -1,7 +1,7 @@
 //! Arguments of what goes from and to other programs.
 
 use super::ModelArguments;
-use super::values::{count, positive, units};
+use super::values::{count, time, units};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -69,7 +69,7 @@ pub(crate) struct PeerArguments {
     #[arg(long, value_name = "FILE", requires = "peer")]
     pub python: Option<PathBuf>,
     /// The longest that the other program may take, in seconds
-    #[arg(long, value_name = "S", default_value_t = 600.0, value_parser = positive, requires = "peer")]
+    #[arg(long, value_name = "S", default_value_t = 600.0, value_parser = time, requires = "peer")]
     pub time_limit: f64,
     #[command(flatten)]
     pub script: ScriptArguments,

@@ -1,6 +1,6 @@
 //! Arguments of `trilith generate`.
 
-use super::values::{acceleration, length, pair, positive, stress, whole};
+use super::values::{acceleration, length, pair, stress, time, whole};
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
 
@@ -64,10 +64,10 @@ pub(crate) struct FrameArguments {
     #[arg(long, value_name = "X,Y", value_parser = pair(acceleration))]
     pub peak: Option<[f64; 2]>,
     /// Step of the motion and of the analysis, in seconds
-    #[arg(long, value_parser = positive)]
+    #[arg(long, value_parser = time)]
     pub dt: Option<f64>,
     /// Length of both, in seconds
-    #[arg(long, value_parser = positive)]
+    #[arg(long, value_parser = time)]
     pub duration: Option<f64>,
     /// Vectors of the FNA basis, from the ground motion alone [default: of the preset, or what the run chooses]
     #[arg(long)]

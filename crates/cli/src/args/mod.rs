@@ -16,7 +16,7 @@ pub(crate) use reduce::{ReduceArguments, Written};
 use std::path::PathBuf;
 use trilith_study::Shard;
 pub(crate) use values::{Kept, pair};
-use values::{alpha, assignment, count, factor, frequency, length, positive, rocking, share};
+use values::{alpha, assignment, count, factor, frequency, length, rocking, share, time};
 
 /// Small finite-element models with nonlinear links: fast nonlinear analysis and direct integration.
 #[derive(Parser)]
@@ -151,8 +151,8 @@ pub(crate) struct RunArguments {
     /// Solver: fna, hht, ritz-hht or full-newton, or one of another crate [default: that of the case]
     #[arg(long)]
     pub solver: Option<String>,
-    /// Output step in seconds [default: that of the case]
-    #[arg(long, value_parser = positive)]
+    /// Output step, such as `10 ms` or 0.01 (seconds) [default: that of the case]
+    #[arg(long, value_parser = time)]
     pub dt: Option<f64>,
     /// Folder for the results [default: out/<name of the model file>, and below it what was set, such as
     /// mu=0.4,solver=hht: by `--set`, `--case`, `--solver`, `--dt`, `--checkpoint-at` and `--restart`]
@@ -189,7 +189,7 @@ pub(crate) struct RunArguments {
     #[arg(long, conflicts_with_all = ["out", "checkpoint_at", "loops", "figure"])]
     pub no_files: bool,
     /// Stop at this time (s) and write `checkpoint.json` into the folder
-    #[arg(long, value_name = "T", value_parser = positive)]
+    #[arg(long, value_name = "T", value_parser = time)]
     pub checkpoint_at: Option<f64>,
     /// Continue from a checkpoint of the same model and case
     #[arg(long, value_name = "FILE")]
@@ -236,8 +236,8 @@ pub(crate) struct GradientArguments {
     /// Solver: fna, hht or ritz-hht [default: that of the case]
     #[arg(long)]
     pub solver: Option<String>,
-    /// Output step in seconds [default: that of the case]
-    #[arg(long, value_parser = positive)]
+    /// Output step, such as `10 ms` or 0.01 (seconds) [default: that of the case]
+    #[arg(long, value_parser = time)]
     pub dt: Option<f64>,
     /// Parameters; several times if need be [default: all that are numbers other than zero and leave
     /// the times of the case as they are]
@@ -263,8 +263,8 @@ pub(crate) struct OptimizeArguments {
     /// Solver: fna, hht or ritz-hht [default: that of the case]
     #[arg(long)]
     pub solver: Option<String>,
-    /// Output step in seconds [default: that of the case]
-    #[arg(long, value_parser = positive)]
+    /// Output step, such as `10 ms` or 0.01 (seconds) [default: that of the case]
+    #[arg(long, value_parser = time)]
     pub dt: Option<f64>,
     /// Parameters and their bounds, such as `mu=0.02..0.2` or `"c1=10 kN*s/m..2 MN*s/m"`; `c*` stands for all parameters
     /// whose names begin so, ` log` behind the bounds for steps that are shares of the value; several times if need be
@@ -344,11 +344,11 @@ pub(crate) struct CompareArguments {
     /// another list is given]
     #[arg(long, value_delimiter = ',')]
     pub solvers: Vec<String>,
-    /// Output step in seconds [default: that of the case]
-    #[arg(long, value_parser = positive)]
+    /// Output step, such as `10 ms` or 0.01 (seconds) [default: that of the case]
+    #[arg(long, value_parser = time)]
     pub dt: Option<f64>,
     /// Several output steps in seconds, such as `0.01,0.005`
-    #[arg(long, value_name = "DT,DT", value_parser = positive, value_delimiter = ',', conflicts_with = "dt")]
+    #[arg(long, value_name = "DT,DT", value_parser = time, value_delimiter = ',', conflicts_with = "dt")]
     pub dts: Vec<f64>,
     /// Several sizes of the basis of FNA, such as `10,20,40`
     #[arg(long, value_name = "N,N", value_delimiter = ',', value_parser = count)]

@@ -1,5 +1,6 @@
 //! Values of arguments, from text.
 
+use trilith::element::{Dimension, dimension};
 use trilith::reduce::FixedModes;
 
 /// The uplift that a swing should keep.
@@ -61,31 +62,23 @@ pub(super) fn whole(text: &str) -> Result<usize, String> {
 }
 
 pub(super) fn length(text: &str) -> Result<f64, String> {
-    match trilith::model::quantity(text, trilith::element::dimension::LENGTH)? {
-        x if x > 0.0 => Ok(x),
-        _ => Err("a length above 0 is wanted, such as `1 m`".into()),
-    }
+    above_nothing(text, dimension::LENGTH, "a length above 0 is wanted, such as `1 m`")
 }
 
 pub(super) fn stress(text: &str) -> Result<f64, String> {
-    match trilith::model::quantity(text, trilith::element::dimension::STRESS)? {
-        x if x > 0.0 => Ok(x),
-        _ => Err("a stress above 0 is wanted, such as `30 GPa`".into()),
-    }
+    above_nothing(text, dimension::STRESS, "a stress above 0 is wanted, such as `30 GPa`")
 }
 
 pub(super) fn acceleration(text: &str) -> Result<f64, String> {
-    match trilith::model::quantity(text, trilith::element::dimension::ACCELERATION)? {
-        x if x > 0.0 => Ok(x),
-        _ => Err("an acceleration above 0 is wanted, such as `0.4 g`".into()),
-    }
+    above_nothing(
+        text,
+        dimension::ACCELERATION,
+        "an acceleration above 0 is wanted, such as `0.4 g`",
+    )
 }
 
 pub(super) fn frequency(text: &str) -> Result<f64, String> {
-    match trilith::model::quantity(text, trilith::element::dimension::FREQUENCY)? {
-        x if x > 0.0 => Ok(x),
-        _ => Err("a frequency above 0 is wanted, such as `0.5 Hz`".into()),
-    }
+    above_nothing(text, dimension::FREQUENCY, "a frequency above 0 is wanted, such as `0.5 Hz`")
 }
 
 pub(super) fn assignment(text: &str) -> Result<(String, String), String> {
@@ -140,16 +133,32 @@ pub(super) fn alpha(text: &str) -> Result<f64, String> {
     }
 }
 
-pub(super) fn positive(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(x) if x.is_finite() && x > 0.0 => Ok(x),
-        _ => Err("a number of seconds above 0 is wanted".into()),
+pub(super) fn time(text: &str) -> Result<f64, String> {
+    above_nothing(
+        text,
+        dimension::TIME,
+        "a time above 0 is wanted, such as `10 ms` or 0.01, in seconds",
+    )
+}
+
+fn above_nothing(text: &str, of: Dimension, wanted: &str) -> Result<f64, String> {
+    match trilith::model::quantity(text, of)? {
+        x if x > 0.0 && x.is_finite() => Ok(x),
+        _ => Err(wanted.into()),
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn times_and_lengths_have_units_or_are_in_those_of_si() {
+        assert_eq!([time("10 ms"), time("0.01"), length("50 cm")], [Ok(0.01), Ok(0.01), Ok(0.5)]);
+        for wrong in ["0", "-1 s", "inf", "5 m", "soon"] {
+            assert!(time(wrong).is_err(), "{wrong}");
+        }
+    }
 
     #[test]
     fn an_assignment_splits_at_the_first_equals_sign() {
