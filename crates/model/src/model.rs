@@ -176,7 +176,7 @@ pub struct Group {
 #[derive(Debug)]
 pub enum Body {
     /// Adds to M, C, K.
-    Linear(Box<dyn LinearElement>),
+    Linear(Arc<dyn LinearElement>),
     /// Eliminates DOFs.
     Constraint(Box<dyn Constraint>),
     /// A nonlinear link.

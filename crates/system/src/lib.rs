@@ -22,6 +22,7 @@ mod members;
 mod parts;
 mod reduction;
 mod subset;
+mod sums;
 mod weight;
 
 pub use assemble::System;
@@ -38,4 +39,5 @@ pub use massless::Massless;
 pub use members::MemberRow;
 pub use reduction::Reduction;
 pub use subset::Subset;
+pub use sums::Sums;
 pub use weight::{MassSum, RIGID};

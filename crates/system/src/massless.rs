@@ -12,6 +12,7 @@
 
 use crate::System;
 use crate::parts::{join, root};
+use crate::sums::Sums;
 use std::collections::BTreeMap;
 use trilith_linalg::{Dense, LinalgError, Sparse, Triplets, symmetric_eigen, unsupported};
 use trilith_model::Model;
@@ -27,9 +28,9 @@ const SHARE: f64 = 0.1;
 #[derive(Clone, Debug, Default)]
 pub struct Massless {
     /// The directions, over the free DOFs.
-    pub directions: Vec<Vec<(usize, f64)>>,
+    pub directions: Sums,
     /// Directions that each free DOF has a share in: (direction, share).
-    of: Vec<Vec<(usize, f64)>>,
+    of: Sums,
 }
 
 impl Massless {
@@ -44,29 +45,28 @@ impl Massless {
         for (i, j, _) in mass.entries().filter(|(i, j, m)| i != j && *m != 0.0) {
             join(&mut block, i, j);
         }
-        let mut members: Vec<Vec<usize>> = vec![Vec::new(); n];
-        for i in 0..n {
-            let first = root(&mut block, i);
-            members[first].push(i);
-        }
-        let mut directions = Vec::new();
-        for own in members.iter().filter(|own| !own.is_empty()) {
-            // A zero on the diagonal of M, which is semi-definite, is a row of zeros.
-            directions.extend(own.iter().filter(|i| diagonal[**i] <= 0.0).map(|i| vec![(*i, 1.0)]));
+        let parts: Vec<usize> = (0..n).map(|i| root(&mut block, i)).collect();
+        let mut members: Vec<usize> = (0..n).collect();
+        members.sort_by_key(|i| parts[*i]);
+        // A zero on the diagonal of M, which is semi-definite, is a row of zeros.
+        let mut alone: Vec<usize> = (0..n).filter(|i| diagonal[*i] <= 0.0).collect();
+        let mut others: Vec<Vec<(usize, f64)>> = Vec::new();
+        for own in members.chunk_by(|i, j| parts[*i] == parts[*j]).filter(|own| own.len() > 1) {
             let heavy: Vec<usize> = own.iter().copied().filter(|i| diagonal[*i] > 0.0).collect();
             if heavy.len() > 1 && heavy.len() <= LARGEST_BLOCK {
-                directions.extend(of_block(mass, &heavy, &diagonal)?);
+                others.extend(of_block(mass, &heavy, &diagonal)?);
             }
         }
-        directions.sort_by_key(|d: &Vec<(usize, f64)>| d[0].0);
-        Ok(Self::of(directions, n))
+        if others.is_empty() {
+            return Ok(Self::of(alone.into_iter().map(|i| [(i, 1.0)]).collect(), n));
+        }
+        others.extend(alone.drain(..).map(|i| vec![(i, 1.0)]));
+        others.sort_by_key(|d| d[0].0);
+        Ok(Self::of(others.into_iter().collect(), n))
     }
 
-    fn of(directions: Vec<Vec<(usize, f64)>>, n: usize) -> Self {
-        let mut of = vec![Vec::new(); n];
-        for (k, direction) in directions.iter().enumerate() {
-            direction.iter().for_each(|(i, c)| of[*i].push((k, *c)));
-        }
+    fn of(directions: Sums, n: usize) -> Self {
+        let of = directions.transposed(n);
         Self { directions, of }
     }
 
@@ -87,11 +87,11 @@ impl Massless {
         let directions = free.directions.iter().map(|shares| {
             let mut sum = BTreeMap::new();
             for (k, share) in shares {
-                for (i, c) in &self.directions[*k] {
+                for (i, c) in self.directions.get(*k) {
                     *sum.entry(*i).or_insert(0.0) += share * c;
                 }
             }
-            sum.into_iter().collect()
+            sum
         });
         Ok(Self::of(directions.collect(), self.of.len()))
     }
@@ -113,8 +113,8 @@ impl Massless {
     pub fn project(&self, a: &Sparse) -> Sparse {
         let mut t = Triplets::new(self.len(), self.len());
         for (i, j, v) in a.entries().filter(|(_, _, v)| *v != 0.0) {
-            for (k, x) in &self.of[i] {
-                for (l, y) in &self.of[j] {
+            for (k, x) in self.of.get(i) {
+                for (l, y) in self.of.get(j) {
                     t.add(*k, *l, x * v * y);
                 }
             }
@@ -138,7 +138,7 @@ impl Massless {
     /// Nᵀ p.
     #[must_use]
     pub fn load(&self, p: &[f64]) -> Vec<f64> {
-        let of = |d: &Vec<(usize, f64)>| d.iter().map(|(i, c)| c * p[*i]).sum();
+        let of = |d: &[(usize, f64)]| d.iter().map(|(i, c)| c * p[*i]).sum();
         self.directions.iter().map(of).collect()
     }
 
@@ -147,7 +147,7 @@ impl Massless {
     pub fn row(&self, row: &[(usize, f64)]) -> Vec<f64> {
         let mut y = vec![0.0; self.len()];
         for (i, b) in row {
-            self.of[*i].iter().for_each(|(k, c)| y[*k] += c * b);
+            self.of.get(*i).iter().for_each(|(k, c)| y[*k] += c * b);
         }
         y
     }
@@ -155,7 +155,7 @@ impl Massless {
     /// True where a row over the free DOFs acts on such a direction.
     #[must_use]
     pub fn is_touched(&self, row: &[(usize, f64)]) -> bool {
-        row.iter().any(|(i, b)| *b != 0.0 && !self.of[*i].is_empty())
+        row.iter().any(|(i, b)| *b != 0.0 && !self.of.get(*i).is_empty())
     }
 
     /// `u += s · N y`.
@@ -282,7 +282,7 @@ mod tests {
         let m = matrix(3, &[(0, 0, 2.0), (0, 2, 6.0), (2, 0, 6.0), (2, 2, 18.0)]);
         let found = Massless::new(&m).unwrap();
         assert_eq!(found.len(), 2);
-        for d in &found.directions {
+        for d in found.directions.iter() {
             let mut u = vec![0.0; 3];
             d.iter().for_each(|(i, c)| u[*i] = *c);
             assert!(m.mul(&u).iter().all(|x| x.abs() < 1e-12), "{d:?}");
@@ -300,6 +300,6 @@ mod tests {
     fn small_masses_beside_large_ones_are_masses() {
         let m = matrix(3, &[(0, 0, 1e6), (1, 1, 1e-9), (0, 1, 1e-4), (1, 0, 1e-4)]);
         let found = Massless::new(&m).unwrap();
-        assert_eq!(found.directions, vec![vec![(2, 1.0)]]);
+        assert_eq!(found.directions, [[(2, 1.0)]].into_iter().collect());
     }
 }

@@ -8,6 +8,7 @@
 use crate::blame::answered;
 use crate::finite_turns::{refuse_lever, turning_nodes};
 use crate::inner::sparse;
+use crate::sums::Sums;
 use crate::{InnerRows, SystemError};
 use std::collections::BTreeMap;
 use trilith_model::{Body, Model};
@@ -15,9 +16,8 @@ use trilith_model::{Body, Model};
 /// The map from all DOFs (six a node, in node order) to free and prescribed ones.
 #[derive(Clone, Debug)]
 pub struct Reduction {
-    /// Where the terms of each DOF begin, and end.
-    offsets: Vec<usize>,
-    terms: Vec<(usize, f64)>,
+    /// What each DOF is.
+    sums: Sums,
     /// Full index (6·node + direction) of each free DOF.
     pub free: Vec<usize>,
     /// Full index of each prescribed DOF.
@@ -101,19 +101,17 @@ impl Reduction {
         for (new, old) in free.iter().chain(&prescribed).enumerate() {
             place[*old] = new;
         }
-        let (mut offsets, mut terms) = (Vec::with_capacity(count + 1), Vec::with_capacity(count));
-        offsets.push(0);
+        let mut sums = Sums::with_capacity(count);
         for i in 0..count {
             if dependent.contains_key(&i) {
                 let sum = substitute(vec![(i, 1.0)], dependent);
                 let kept = sum.into_iter().filter(|(j, c)| place[*j] != usize::MAX && *c != 0.0);
-                terms.extend(kept.map(|(j, c)| (place[j], c)));
-            } else if place[i] != usize::MAX {
-                terms.push((place[i], 1.0));
+                sums.push(kept.map(|(j, c)| (place[j], c)));
+            } else {
+                sums.push((place[i] != usize::MAX).then_some((place[i], 1.0)));
             }
-            offsets.push(terms.len());
         }
-        Self { offsets, terms, free, prescribed }
+        Self { sums, free, prescribed }
     }
 
     /// Counts a direction as free that nothing acts on, where every other is fixed or prescribed: solvers step at least
@@ -121,7 +119,7 @@ impl Reduction {
     pub(crate) fn add_idle(&mut self) {
         self.free.push(0);
         // Prescribed ones are counted behind the free ones.
-        self.terms.iter_mut().for_each(|(i, _)| *i += 1);
+        self.sums.terms.iter_mut().for_each(|(i, _)| *i += 1);
     }
 
     /// Number of free DOFs.
@@ -133,7 +131,7 @@ impl Reduction {
     /// A full DOF as (index, factor) of free DOFs and, from [`order`](Self::order) on, prescribed ones.
     #[must_use]
     pub fn expand(&self, full: usize) -> &[(usize, f64)] {
-        &self.terms[self.offsets[full]..self.offsets[full + 1]]
+        self.sums.get(full)
     }
 }
 

@@ -15,8 +15,8 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 use trilith_element::dimension::{MOMENT, NONE, STIFFNESS};
 use trilith_element::{
-    Card, Coordinates, Form, Frame, Geometry, Link, NodeCount, ParameterError, Range, Value,
-    Values, Vector3,
+    Card, Coordinates, Form, Frame, Geometry, LinearElement, Link, NodeCount, ParameterError,
+    Range, ReadLinear, Value, Values, Vector3,
 };
 
 struct Reading<'c, 'n> {
@@ -25,8 +25,14 @@ struct Reading<'c, 'n> {
     properties: &'n [Entry],
     names: &'c Names<'n>,
     nodes: &'c [Option<crate::Node>],
-    /// Parameter values met last: most elements of a model share a few sets.
-    met: RefCell<VecDeque<Arc<Values>>>,
+    /// What was met last: most elements of a model share a few sets of parameter values.
+    met: RefCell<VecDeque<Met>>,
+}
+
+/// Parameter values, and the linear element that a kind makes of them.
+struct Met {
+    values: Arc<Values>,
+    linear: Option<(&'static str, Arc<dyn LinearElement>)>,
 }
 
 /// Sets of parameter values that are looked through for an equal one.
@@ -140,8 +146,10 @@ impl Reading<'_, '_> {
         };
         let frame = frame?;
         let place = Geometry::new(&positions, frame);
+        let section = shape(card, &given, &values);
+        let values = self.shared_values(values);
         let body = match reader {
-            Reader::Linear(read) => read(&values).map(Body::Linear),
+            Reader::Linear(read) => self.linear(card, &values, read).map(Body::Linear),
             Reader::Constraint(read) => read(&values).map(Body::Constraint),
             Reader::Link(read) => read(&values).and_then(|mut law| {
                 law.place(&place)?;
@@ -158,7 +166,6 @@ impl Reading<'_, '_> {
             Ok(body) => body,
             Err(error) => return self.refuse(&error, &given, &what, &at),
         };
-        let section = shape(card, &given, &values);
         Some(Element {
             name: e.key.clone(),
             kind: card.kind,
@@ -166,7 +173,7 @@ impl Reading<'_, '_> {
             frame,
             body,
             span: e.key_span.clone(),
-            values: self.shared_values(values),
+            values,
             axes: [axis1, axis2],
             section,
         })
@@ -189,15 +196,35 @@ impl Reading<'_, '_> {
     /// The same values, in one place for all elements that have them.
     fn shared_values(&self, values: Values) -> Arc<Values> {
         let mut met = self.met.borrow_mut();
-        if let Some(same) = met.iter().find(|v| ***v == values) {
-            return Arc::clone(same);
+        if let Some(same) = met.iter().find(|it| *it.values == values) {
+            return Arc::clone(&same.values);
         }
-        let new = Arc::new(values);
+        let values = Arc::new(values);
         if met.len() == MET {
             met.pop_front();
         }
-        met.push_back(Arc::clone(&new));
-        new
+        met.push_back(Met { values: Arc::clone(&values), linear: None });
+        values
+    }
+
+    /// The linear element that a kind makes of [shared values](Self::shared_values), one for all that have them.
+    fn linear(
+        &self,
+        card: &Card,
+        values: &Arc<Values>,
+        read: &ReadLinear,
+    ) -> Result<Arc<dyn LinearElement>, ParameterError> {
+        let is_same = |it: &Met| Arc::ptr_eq(&it.values, values);
+        let known =
+            self.met.borrow().iter().find(|it| is_same(it)).and_then(|it| it.linear.clone());
+        if let Some((_, made)) = known.filter(|(kind, _)| *kind == card.kind) {
+            return Ok(made);
+        }
+        let made: Arc<dyn LinearElement> = Arc::from(read(values)?);
+        if let Some(same) = self.met.borrow_mut().iter_mut().find(|it| is_same(it)) {
+            same.linear = Some((card.kind, Arc::clone(&made)));
+        }
+        Ok(made)
     }
 
     fn refuse<T>(

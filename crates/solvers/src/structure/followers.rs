@@ -80,7 +80,7 @@ impl Followers {
         let row = |a: &usize| massless.row(&space.links.row(*a).collect::<Vec<_>>());
         let rows: Vec<Vec<f64>> = damped.iter().map(row).collect();
         let own = massless.undamped(&damping(space, &massless), &rows)?;
-        Ok(Self(orthonormal(own.directions)))
+        Ok(Self(orthonormal(own.directions.iter().map(<[_]>::to_vec).collect())))
     }
 
     /// Their rates and accelerations at the end of a step.

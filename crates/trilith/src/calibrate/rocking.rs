@@ -4,6 +4,7 @@ use super::body::{Body, Pose};
 use super::root::falling_root;
 use super::{CalibrationError, Calibrator};
 use crate::{Error, Model};
+use std::sync::Arc;
 use trilith_element::{Frame, Values};
 use trilith_elements::Spring;
 use trilith_model as model;
@@ -170,7 +171,7 @@ impl Calibrator {
             kind: "Spring",
             nodes: vec![node],
             frame,
-            body: model::Body::Linear(Box::new(spring)),
+            body: model::Body::Linear(Arc::new(spring)),
             span: 0..0,
             values: Values::default().into(),
             axes: [None, None],
