@@ -234,7 +234,7 @@ fn sections(
     let c = &*c;
 
     let plane = top.get("plane");
-    let plane = plane.and_then(|node| c.choice(node, "plane", Plane::NAMES));
+    let plane = plane.and_then(|node| c.choice(node, "plane", schema::PLANES));
     let plane = plane.map(|i| Plane::ALL[i]);
     let gravity = match top.get("gravity") {
         Some(node) => {
