@@ -58,7 +58,9 @@ fn extremes(y: &[f64]) -> Vec<usize> {
     for bucket in 0..BUCKETS {
         let range = bucket * y.len() / BUCKETS..(bucket + 1) * y.len() / BUCKETS;
         let (mut low, mut high) = (range.start, range.start);
-        for i in range {
+        // Written out, as this crate is compiled quickly and histories are long.
+        let mut i = range.start;
+        while i < range.end {
             // What is no number is passed over.
             if y[i] < y[low] || y[low].is_nan() {
                 low = i;
@@ -66,6 +68,7 @@ fn extremes(y: &[f64]) -> Vec<usize> {
             if y[i] >= y[high] || y[high].is_nan() {
                 high = i;
             }
+            i += 1;
         }
         kept.extend([low.min(high), low.max(high)]);
     }
