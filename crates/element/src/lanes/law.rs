@@ -242,6 +242,7 @@ impl<'a, R: Real> LaneLinks<'a, R> {
     }
 
     /// The answer of the link with this index.
+    #[cfg(target_arch = "x86_64")]
     #[inline(always)]
     pub(super) fn respond<L: LaneLaw>(&mut self, i: usize) -> LaneStep<R> {
         let (at, mut out, trial) = self.with_room::<L>(i);
