@@ -14,7 +14,7 @@ use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fused(pub f64);
 
-/// Numbers side by side: eight in a register of AVX-512 (`V4`) or in [two](Two) of AVX2, four in one of AVX2 (`V3`).
+/// Numbers side by side: eight in a register of AVX-512 (`V4`) or in two of AVX2 (`Two`), four in one of AVX2 (`V3`).
 pub struct Wide<S: Registers> {
     pub(super) simd: S,
     x: S::Numbers,
