@@ -49,7 +49,7 @@ impl Massless {
         let mut members: Vec<usize> = (0..n).collect();
         members.sort_by_key(|i| parts[*i]);
         // A zero on the diagonal of M, which is semi-definite, is a row of zeros.
-        let mut alone: Vec<usize> = (0..n).filter(|i| diagonal[*i] <= 0.0).collect();
+        let alone: Vec<usize> = (0..n).filter(|i| diagonal[*i] <= 0.0).collect();
         let mut others: Vec<Vec<(usize, f64)>> = Vec::new();
         for own in members.chunk_by(|i, j| parts[*i] == parts[*j]).filter(|own| own.len() > 1) {
             let heavy: Vec<usize> = own.iter().copied().filter(|i| diagonal[*i] > 0.0).collect();
@@ -60,7 +60,7 @@ impl Massless {
         if others.is_empty() {
             return Ok(Self::of(alone.into_iter().map(|i| [(i, 1.0)]).collect(), n));
         }
-        others.extend(alone.drain(..).map(|i| vec![(i, 1.0)]));
+        others.extend(alone.into_iter().map(|i| vec![(i, 1.0)]));
         others.sort_by_key(|d| d[0].0);
         Ok(Self::of(others.into_iter().collect(), n))
     }

@@ -5,7 +5,7 @@ use pulp::x86::{V3, V4};
 use std::arch::x86_64::{__m256d, __m512d, __mmask8};
 
 /// What registers hold, in the types of the processor itself and as fields. A law is one function of thousands of operations:
-/// arrays and functions inside one another in each of them took the compiler an eighth longer, and sweeps 2 %.
+/// arrays and functions inside one another in each of them took the compiler an eighth longer, and sweeps 1 to 2 %.
 pub trait Registers: Copy {
     /// Numbers side by side.
     type Numbers: Copy;

@@ -115,7 +115,7 @@ pub fn parse(text: &str, path: impl AsRef<Path>) -> Result<(Arc<Source>, Node), 
 const LARGE: usize = 1 << 20;
 
 /// A tree is millions of small pieces. Those that a thread of its own makes lie together, and the system has their memory back
-/// when the tree goes; among what is made from the tree they would leave holes, 450 MB of them for a frame of 1.5 million equations.
+/// when the tree goes; among what is made from the tree they would leave holes, hundreds of MB of them for a frame of 1.5 million equations.
 fn apart<T: Send>(text: &str, make: impl Fn() -> T + Send + Sync) -> T {
     if text.len() >= LARGE {
         let made = std::thread::scope(|scope| {

@@ -22,6 +22,9 @@ use trilith_element::{Dimension, Dof, Frame, Value, Values, Vector3};
 ///
 /// Parameters have gone into the numbers; they are listed in comments. Tables of files are written
 /// out, so the text stands for itself.
+///
+/// # Panics
+/// Where a model made in code does not hold together, as [`Model::check`] tells.
 #[must_use]
 pub fn resolved(model: &Model) -> String {
     written_with(model, None)
@@ -49,6 +52,9 @@ pub struct Replacement<'a> {
 }
 
 /// The model with an element in place of others, as [`resolved`] writes it.
+///
+/// # Panics
+/// As [`resolved`].
 #[must_use]
 pub fn resolved_with(model: &Model, replacement: &Replacement<'_>) -> String {
     written_with(model, Some(replacement))
