@@ -1,16 +1,15 @@
 //! Sets `TRILITH_BUILD`, a digest of the sources: two programs that may compute differently do not pass for one.
 //!
-//! In the workspace it goes over all crates that the program is made from and over the versions of their
-//! dependencies. A crate that was packaged stands alone: there it goes over the crate itself, and the others are
-//! fixed by their versions.
+//! In the workspace it goes over all crates that a result is made by and over the versions of their dependencies. A
+//! crate that was packaged stands alone: there it goes over the crate itself, and the others are fixed by their
+//! versions.
 
 use std::fs;
 use std::io::{Error, Result};
 use std::path::{Path, PathBuf};
 
 /// Parts of the workspace that results hang on.
-const PARTS: [&str; 12] = [
-    "crates/cli",
+const PARTS: [&str; 11] = [
     "crates/element",
     "crates/linalg",
     "crates/model",

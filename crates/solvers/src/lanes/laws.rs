@@ -18,8 +18,8 @@ pub(super) fn look<A: Arithmetic, const M: usize, const L: usize, const N: usize
     let State { d, v, history, trial, k, c, steps, .. } = state;
     let (d0, v0) = (&**d, &**v);
     if let [run] = &plan.runs[..]
-        && run.extent.coordinates == N
-        && run.count * N == L
+        && run.extent.coordinates == plan.block()
+        && run.count * plan.block() == L
     {
         // One law that leaves no place empty: all there is, and no bounds to be looked at.
         let mut links = LaneLinks {
@@ -32,8 +32,8 @@ pub(super) fn look<A: Arithmetic, const M: usize, const L: usize, const N: usize
             history,
             trial,
             f,
-            k: k.as_flattened_mut(),
-            c: c.as_flattened_mut(),
+            k: k.rows_mut(plan.block(), 0..L),
+            c: c.rows_mut(plan.block(), 0..L),
         };
         return run.laws.respond(with, &mut links, steps);
     }
@@ -42,14 +42,14 @@ pub(super) fn look<A: Arithmetic, const M: usize, const L: usize, const N: usize
         let (own, n) = (run.extent, run.extent.coordinates);
         let r = run.first..run.first + run.count * n;
         let (h, p) = (run.history, run.parameters);
-        let whole = n == N;
+        let whole = n == plan.block();
         // A narrow link: its blocks are spread afterwards.
         let mut narrow = Narrow::<_, N>::new(dt, whole);
         let blocks = match &mut narrow {
             Some(own) => {
                 (&mut own.k.as_flattened_mut()[..n * n], &mut own.c.as_flattened_mut()[..n * n])
             }
-            None => (k[r.clone()].as_flattened_mut(), c[r.clone()].as_flattened_mut()),
+            None => (k.rows_mut(n, r.clone()), c.rows_mut(n, r.clone())),
         };
         let mut links = LaneLinks {
             parameters: &plan.parameters[p..p + run.count * own.parameters],
@@ -70,9 +70,11 @@ pub(super) fn look<A: Arithmetic, const M: usize, const L: usize, const N: usize
         if let Some(own) = &narrow {
             let blocks = (own.k.as_flattened(), own.c.as_flattened());
             for i in 0..n {
+                let row = run.first + i..run.first + i + 1;
+                let to = (k.rows_mut(plan.block(), row.clone()), c.rows_mut(plan.block(), row));
                 for j in 0..n {
-                    k[run.first + i][j] = blocks.0[i * n + j];
-                    c[run.first + i][j] = blocks.1[i * n + j];
+                    to.0[j] = blocks.0[i * n + j];
+                    to.1[j] = blocks.1[i * n + j];
                 }
             }
         }

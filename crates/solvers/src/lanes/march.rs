@@ -6,7 +6,7 @@ use super::newton::{Found, foresee, settle};
 use super::pieces::{cut_step, in_halves};
 use super::plan::Plan;
 use super::record::Record;
-use super::setup::{LaneSetup, ROOM};
+use super::setup::{BODY, LaneSetup, ROOM, WIDEST};
 use super::state::State;
 use super::step::{Passed, account, account_apart, take};
 use super::{Done, LaneOutcome};
@@ -132,25 +132,22 @@ fn sized<A: Arithmetic>(with: A, setups: &[&LaneSetup], beside: usize, done: Don
     // Branches on constants alone: what an arithmetic never takes is not compiled for it.
     if const { !A::IS_RARE } {
         match (shape.modes, n, coordinates) {
-            (..=3, 1, ..=2) => return of_size::<A, 3, 2, 1>(with, setups, beside, done),
-            (..=3, 2, ..=4) => {
-                // Alone four modes are one register.
-                if const { A::WIDTH == 1 } {
-                    return of_size::<A, 4, 4, 2>(with, setups, beside, done);
-                } else {
-                    return of_size::<A, 3, 4, 2>(with, setups, beside, done);
-                }
+            // Seldom does one go alone: of the small sizes there is one, of four modes, which are one register.
+            (..=3, 2, ..=4) if const { A::WIDTH == 1 } => {
+                return of_size::<A, 4, 4, 2>(with, setups, beside, done);
             }
+            _ if const { A::WIDTH == 1 } => {}
+            (..=3, 1, ..=2) => return of_size::<A, 3, 2, 1>(with, setups, beside, done),
+            (..=3, 2, ..=4) => return of_size::<A, 3, 4, 2>(with, setups, beside, done),
             (..=3, 3, ..=6) => return of_size::<A, 3, 6, 3>(with, setups, beside, done),
             _ => {}
         }
     }
-    match n {
+    if n > WIDEST {
         // One body with all its coordinates, which goes with adaptive steps alone.
-        4.. => run(with, Adaptive::<6, 6, 6> { setups, beside, done }),
-        3 => of_size::<A, { ROOM }, { ROOM }, 3>(with, setups, beside, done),
-        2 => of_size::<A, { ROOM }, { ROOM }, 2>(with, setups, beside, done),
-        _ => of_size::<A, { ROOM }, { ROOM }, 1>(with, setups, beside, done),
+        run(with, Adaptive::<BODY, BODY, BODY> { setups, beside, done });
+    } else {
+        of_size::<A, ROOM, ROOM, WIDEST>(with, setups, beside, done);
     }
 }
 

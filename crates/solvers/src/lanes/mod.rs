@@ -22,6 +22,7 @@
 //! for one lane after the other (`each`), says what it stores and loses. A body that may overturn needs adaptive steps.
 
 mod adaptive;
+mod blocks;
 mod coefficients;
 mod contact;
 mod each;

@@ -114,15 +114,17 @@ pub(super) fn foresee_by_tangents<R: Real, const M: usize, const L: usize, const
     let n = plan.coordinates();
     let moved = less(n, &found.held, &state.d);
     let faster = if plan.rate { less(n, &found.rates_held, &state.v) } else { moved };
+    let block = plan.block();
     for a in 0..n {
-        let first = a / N * N;
-        let mut sum = state.k[a][0] * moved[first];
-        for i in 1..N {
-            sum = state.k[a][i].mul_add(moved[first + i], sum);
+        let first = a / block * block;
+        let (k, c) = (state.k.row(block, a), state.c.row(block, a));
+        let mut sum = k[0] * moved[first];
+        for i in 1..block {
+            sum = k[i].mul_add(moved[first + i], sum);
         }
         if plan.rate {
-            for i in 0..N {
-                sum = state.c[a][i].mul_add(faster[first + i], sum);
+            for i in 0..block {
+                sum = c[i].mul_add(faster[first + i], sum);
             }
         }
         found.change[a] = sum;
@@ -183,15 +185,17 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
         found: &Found<R, M, L>,
         allowed: &mut [R; L],
     ) {
+        let block = self.block();
         for a in 0..self.coordinates() {
-            let first = a / N * N;
-            let mut sum = (state.k[a][0] * found.d[first]).abs();
-            for i in 1..N {
-                sum = sum + (state.k[a][i] * found.d[first + i]).abs();
+            let first = a / block * block;
+            let (k, c) = (state.k.row(block, a), state.c.row(block, a));
+            let mut sum = (k[0] * found.d[first]).abs();
+            for i in 1..block {
+                sum = sum + (k[i] * found.d[first + i]).abs();
             }
             if self.rate {
-                for i in 0..N {
-                    sum = sum + (state.c[a][i] * found.v[first + i]).abs();
+                for i in 0..block {
+                    sum = sum + (c[i] * found.v[first + i]).abs();
                 }
             }
             allowed[a] = allowed[a].max(sum.of(DIGIT) * sum);
@@ -235,7 +239,7 @@ fn correction<R: Real, const M: usize, const L: usize, const N: usize>(
     jacobian(plan, rule, state, j);
     let n = plan.coordinates();
     if kept {
-        state.keep_answers(n, j, goes, plan.rate);
+        state.keep_answers(plan, j, goes);
     }
     solve(n, j, step);
 }
@@ -249,20 +253,20 @@ fn jacobian<R: Real, const M: usize, const L: usize, const N: usize>(
     j: &mut [[R; L]; L],
 ) {
     let (zero, one) = (rule.dt.of(0.0), rule.dt.of(1.0));
-    let n = plan.coordinates();
+    let (n, block) = (plan.coordinates(), plan.block());
     for a in 0..n {
-        let first = a / N * N;
+        let first = a / block * block;
         for b in 0..n {
             j[a][b] = zero;
         }
         j[a][a] = one;
-        for i in 0..N {
-            let k = -state.k[a][i];
+        for i in 0..block {
+            let k = -state.k.row(block, a)[i];
             for b in 0..n {
                 j[a][b] = k.mul_add(rule.g[b][first + i], j[a][b]);
             }
             if plan.rate {
-                let c = -state.c[a][i];
+                let c = -state.c.row(block, a)[i];
                 for b in 0..n {
                     j[a][b] = c.mul_add(rule.h[b][first + i], j[a][b]);
                 }
@@ -353,23 +357,24 @@ pub(super) fn settle<A: Arithmetic, const M: usize, const L: usize, const N: usi
 }
 
 impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> {
-    /// J⁻¹ k and J⁻¹ c, column by column, where a mask says so; `j` holds the factors of `n` equations.
+    /// J⁻¹ k and J⁻¹ c, column by column, where a mask says so; `j` holds the factors of J.
     #[inline(always)]
-    fn keep_answers(&mut self, n: usize, j: &[[R; L]; L], mask: R::Mask, rate: bool) {
+    fn keep_answers(&mut self, plan: &Plan<R, M, L, N>, j: &[[R; L]; L], mask: R::Mask) {
+        let (n, block) = (plan.coordinates(), plan.block());
         let zero = self.lost.of(0.0);
         let mut column = [zero; L];
         let kinds = [
             Some((&self.k, &mut self.answer)),
-            rate.then_some((&self.c, &mut self.answer_to_rate)),
+            plan.rate.then_some((&self.c, &mut self.answer_to_rate)),
         ];
         for (tangents, answer) in kinds.into_iter().flatten() {
             for b in 0..n {
-                let first = b / N * N;
+                let first = b / block * block;
                 for a in 0..n {
                     column[a] = zero;
                 }
-                for i in 0..N {
-                    column[first + i] = tangents[first + i][b - first];
+                for i in 0..block {
+                    column[first + i] = tangents.row(block, first + i)[b - first];
                 }
                 solve(n, j, &mut column);
                 for a in 0..n {

@@ -3,7 +3,7 @@
 use super::form::{Extent, Form, Laws};
 use super::outputs::Outputs;
 use super::setup::{LaneSetup, Output};
-use super::small::{Aligned, taken, times};
+use super::small::{Aligned, SMALL, taken, times};
 use super::tables::Table;
 use std::sync::Arc;
 use trilith_element::lanes::{Arithmetic, Real};
@@ -41,8 +41,9 @@ pub(super) struct Varying<R, const M: usize> {
 pub(super) struct Plan<R, const M: usize, const L: usize, const N: usize> {
     pub runs: Vec<Run>,
     pub parameters: Vec<R>,
-    /// How many modes and link coordinates there are: see [`modes`](Self::modes), [`coordinates`](Self::coordinates).
-    counts: [usize; 2],
+    /// How many modes, link coordinates and coordinates of the widest link there are: see [`modes`](Self::modes),
+    /// [`coordinates`](Self::coordinates), [`block`](Self::block).
+    counts: [usize; 3],
     /// B by rows, and by columns.
     pub b: Aligned<[[R; M]; L]>,
     pub columns: Aligned<[[R; L]; M]>,
@@ -163,7 +164,9 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
         let get = |of: &dyn Fn(&LaneSetup) -> f64| pick(with, setups, of);
         let modes = one.shape.modes;
         let mode_wise = |of: &dyn Fn(&LaneSetup, usize) -> f64| mode_wise::<A, M>(with, setups, of);
-        let Layout { runs, places, contacts } = Layout::new(setups, N);
+        let widest = one.forms.iter().map(|form| form.extent.coordinates).max().unwrap_or(1);
+        let block = block::<L, N>(widest);
+        let Layout { runs, places, contacts } = Layout::new(setups, block);
         let parameters = one.forms.iter().enumerate().flat_map(|(l, form)| {
             (0..form.extent.parameters).map(move |i| get(&|s| s.forms[l].parameters[i]))
         });
@@ -208,7 +211,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
         Self {
             runs,
             parameters,
-            counts: [modes, N * one.forms.len()],
+            counts: [modes, block * one.forms.len(), block],
             b,
             columns,
             omega2: mode_wise(&|s, j| s.omega2[j]),
@@ -238,6 +241,12 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
     }
 }
 
+/// Coordinates that a link takes where the widest has so many: all that there is room for where that is little in all.
+#[inline(always)]
+fn block<const L: usize, const N: usize>(widest: usize) -> usize {
+    if const { L <= SMALL } { N } else { widest.min(N) }
+}
+
 impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
     /// Modes that loops go over.
     #[inline(always)]
@@ -245,10 +254,16 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
         taken::<M>(self.counts[0])
     }
 
-    /// Link coordinates that loops go over: whole blocks of `N`.
+    /// Link coordinates that loops go over: whole [blocks](Self::block).
     #[inline(always)]
     pub fn coordinates(&self) -> usize {
         taken::<L>(self.counts[1])
+    }
+
+    /// Coordinates of every link that loops go over.
+    #[inline(always)]
+    pub fn block(&self) -> usize {
+        block::<L, N>(self.counts[2])
     }
 
     /// B q.

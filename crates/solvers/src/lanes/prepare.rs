@@ -9,7 +9,7 @@
 use super::form::{Form, forms};
 use super::grid::{Grid, common_parts, cuts};
 use super::rules::stiffness_ratio;
-use super::setup::{Adaptive, LaneSetup, Output, ROOM, Shape, modes_of};
+use super::setup::{Adaptive, BODY, LaneSetup, Output, ROOM, Shape, WIDEST, modes_of};
 use super::tables::{Tables, split};
 use super::uncoupled::{turned, uncoupled};
 use super::watch::Watch;
@@ -34,11 +34,6 @@ const FASTEST: f64 = std::f64::consts::FRAC_PI_2;
 
 /// An output step is cut in so many halves at most where steps are adaptive and longer ones are too long for modes.
 const HALVINGS: usize = 4;
-
-/// Coordinates of one link at most, where there are others.
-const WIDEST: usize = 3;
-/// Modes and coordinates of a body in space, which is the only link then.
-const BODY: usize = 6;
 
 /// Why there is no setup.
 enum Unfit {

@@ -139,7 +139,7 @@ fn bound<R: Real, const M: usize, const L: usize, const N: usize>(
     let zero = rule.dt.of(0.0);
     let mut root = [zero; L];
     for a in 0..plan.coordinates() {
-        root[a] = from.k[a][a % N].max(zero).sqrt();
+        root[a] = from.k.own(plan.block(), a).max(zero).sqrt();
     }
     let mut most = zero;
     for b in 0..plan.coordinates() {

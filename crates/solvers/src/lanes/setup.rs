@@ -162,6 +162,10 @@ impl LaneSetup {
 
 /// Modes, and link coordinates, at most.
 pub(super) const ROOM: usize = 24;
+/// Coordinates of one link at most, where there are others.
+pub(super) const WIDEST: usize = 3;
+/// Modes and coordinates of a body in space, which is the only link then.
+pub(super) const BODY: usize = 6;
 
 /// Coefficients of modes in a step of this length, s.
 pub(super) fn modes_of(omega2: &[f64], damping: &[f64], step: f64) -> Vec<Mode> {

@@ -1,5 +1,6 @@
 //! Where a march is: the motion and the links. What is counted and seen on the way is in its [`record`](super::record).
 
+use super::blocks::Blocks;
 use super::plan::{Plan, coordinate_wise, mode_wise, pick};
 use super::setup::LaneSetup;
 use super::small::Aligned;
@@ -16,10 +17,9 @@ pub(super) struct State<R: Real, const M: usize, const L: usize, const N: usize>
     pub d: Aligned<[R; L]>,
     pub v: Aligned<[R; L]>,
     pub f: Aligned<[R; L]>,
-    /// Tangents of the last look at the laws, for the iteration of a step: a row of the block of its link for every
-    /// coordinate.
-    pub k: Aligned<[[R; N]; L]>,
-    pub c: Aligned<[[R; N]; L]>,
+    /// Tangents of the last look at the laws, for the iteration of a step.
+    pub k: Blocks<R, N, L>,
+    pub c: Blocks<R, N, L>,
     /// Largest stiffness of each coordinate so far, where steps are adaptive.
     pub stiffest: Aligned<[R; L]>,
     /// Bᵀ f.
@@ -54,9 +54,10 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
         };
         let f = flat(&|s, i| s.f[i]);
         let stiffness = flat(&|s, i| s.stiffness[i]);
-        let mut k = Aligned::full_of(zero);
-        for (a, (row, own)) in k.iter_mut().zip(*stiffness).enumerate() {
-            row[a % N] = own;
+        let mut k = Blocks::filled(zero);
+        let n = plan.block();
+        for a in 0..plan.coordinates() {
+            k.rows_mut(n, a..a + 1)[a % n] = stiffness[a];
         }
         let history: Vec<R> = (0..one.history.len()).map(|i| get(&|s| s.history[i])).collect();
         let links = one.forms.len();
@@ -72,7 +73,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
             f,
             k,
             stiffest: flat(&|s, i| s.stiffest[i]),
-            c: Aligned::full_of(zero),
+            c: Blocks::filled(zero),
             answer: Aligned::full_of(zero),
             answer_to_rate: Aligned::full_of(zero),
             trial: history.clone(),
@@ -114,13 +115,10 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
     #[inline(always)]
     pub fn follow(&mut self, from: &Self, plan: &Plan<R, M, L, N>) {
         self.start_from(from, plan);
-        for a in 0..plan.coordinates() {
-            self.k[a] = from.k[a];
-        }
+        let (n, all) = (plan.block(), plan.coordinates());
+        copy(from.k.rows(n, 0..all), self.k.rows_mut(n, 0..all));
         if plan.rate {
-            for a in 0..plan.coordinates() {
-                self.c[a] = from.c[a];
-            }
+            copy(from.c.rows(n, 0..all), self.c.rows_mut(n, 0..all));
         }
         if plan.accelerations {
             self.a = from.a;
@@ -145,7 +143,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
     #[inline(always)]
     pub fn stiffen(&mut self, plan: &Plan<R, M, L, N>) {
         for a in 0..plan.coordinates() {
-            self.stiffest[a] = self.stiffest[a].max(self.k[a][a % N]);
+            self.stiffest[a] = self.stiffest[a].max(self.k.own(plan.block(), a));
         }
     }
 }
@@ -174,17 +172,17 @@ fn take_motion<R: Real, const M: usize, const L: usize, const N: usize>(
     to: &mut State<R, M, L, N>,
     plan: &Plan<R, M, L, N>,
 ) {
-    let (m, l) = (plan.modes(), plan.coordinates());
+    let (m, l, n) = (plan.modes(), plan.coordinates(), plan.block());
     take_all(mask, &from.q[..m], &mut to.q[..m]);
     take_all(mask, &from.p[..m], &mut to.p[..m]);
     take_all(mask, &from.push[..m], &mut to.push[..m]);
     take_all(mask, &from.d[..l], &mut to.d[..l]);
     take_all(mask, &from.f[..l], &mut to.f[..l]);
     take_all(mask, &from.stiffest[..l], &mut to.stiffest[..l]);
-    take_all(mask, from.k[..l].as_flattened(), to.k[..l].as_flattened_mut());
+    take_all(mask, from.k.rows(n, 0..l), to.k.rows_mut(n, 0..l));
     if plan.rate {
         take_all(mask, &from.v[..l], &mut to.v[..l]);
-        take_all(mask, from.c[..l].as_flattened(), to.c[..l].as_flattened_mut());
+        take_all(mask, from.c.rows(n, 0..l), to.c.rows_mut(n, 0..l));
     }
     if plan.accelerations {
         take_all(mask, &*from.a, &mut *to.a);

@@ -163,9 +163,10 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
             let a = first + j;
             // At the turning point, beyond what the tangents at the end say.
             let mut told = to.f[a];
+            let (k, c) = (to.k.row(plan.block(), a), to.c.row(plan.block(), a));
             for b in 0..n {
-                told = to.k[a][b].mul_add(there.d[b] - d1[b], told);
-                told = to.c[a][b].mul_add(there.v[b] - v1[b], told);
+                told = k[b].mul_add(there.d[b] - d1[b], told);
+                told = c[b].mul_add(there.v[b] - v1[b], told);
             }
             let apart = (on_turn.f[j] - told).abs();
             let behind = (at_end.f[j] - to.f[a]).abs().only(turns);
