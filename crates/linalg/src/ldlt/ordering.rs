@@ -1,7 +1,7 @@
 //! Fill-reducing order of elimination with chosen equations at the end.
 //!
 //! The other equations are ordered on their own graph by approximate minimum degree, or by nested dissection down to some
-//! size: what leaves the least fill. On frames that is between 10 and 34 % less than minimum degree alone, for another
+//! size: what leaves the least fill. On frames that is between 3 and 36 % less than minimum degree alone, for another
 //! size each. Ordering them apart from the chosen ones mostly leaves a little less fill than an order of the whole graph
 //! with those moved to its end (measured: between 7 % less and 8 % more). Then the order is made a postorder of the
 //! elimination tree, which leaves the fill alone and brings columns of equal pattern side by side.
@@ -21,7 +21,7 @@ const NONE: usize = usize::MAX;
 const FEW: usize = 400;
 /// Parts of all equations that nested dissection stops at; none: minimum degree alone. More equations than this leave no
 /// doubt that few parts are too few, and take too long to try.
-const PARTS: [Option<usize>; 4] = [None, Some(48), Some(3), Some(12)];
+const PARTS: [Option<usize>; 4] = [None, Some(48), Some(2), Some(12)];
 const MANY: usize = 1 << 17;
 
 /// The lower triangle of a symmetric pattern in compressed columns, diagonal included.
