@@ -14,15 +14,17 @@
 //! the inactive side. The force is zero at d = 0.
 //!
 //! Energies: `stored` is what comes back, f²/2k + ½ κ₂ ((s + p)² − p²); the rest of the work, done in
-//! loading, is `hysteretic`.
+//! loading, is `hysteretic`: ½ (κ₁ − κ₂) ((s + p)² − p²).
 //!
 //! Reference: parameters and branches as in SAP2000's friction-spring damper; \[Filiatrault et al. 2000\].
 
+use crate::shared::written::{Written, answers_by_law};
 use serde::Deserialize;
 use std::borrow::Cow;
+use trilith_element::lanes::{LaneAt, LaneForce, LaneLaw, LaneStep, Real};
 use trilith_element::{
-    Axis, Card, Category, Choices, Coordinates, Described, Exercise, Field, Kinematics, Link,
-    NodeCount, ParameterError, Parameters, Response, Stroke,
+    Axis, Card, Category, Choices, Coordinates, Described, Exercise, Field, Link, NodeCount,
+    ParameterError, Parameters, Stroke,
 };
 
 /// Sides on which a [`FrictionSpring`] acts.
@@ -96,11 +98,90 @@ impl Described for FrictionSpring {
     }
 }
 
-/// Slip, and its derivative by d.
-struct Slip {
-    slip: f64,
-    by_d: f64,
+/// What the law takes of a [`FrictionSpring`].
+#[derive(Clone, Copy)]
+struct Of<R> {
+    k: R,
+    /// κ of loading and of unloading: force over slip + precompression in slip.
+    kappa: [R; 2],
+    /// 1/(k + κ) of both.
+    per: [R; 2],
+    u0: R,
+    /// Slip at which the rings are closed.
+    closed: R,
+    /// 1 where it acts for positive d, and for negative d; else 0.
+    acts: [R; 2],
 }
+
+impl<R: Real> Of<R> {
+    #[inline(always)]
+    fn read(p: &[R]) -> Self {
+        let p: [R; PARAMETERS] = p.try_into().expect("parameters of a friction spring");
+        let [k, loading, unloading, per_loading, per_unloading, u0, closed, tension, compression] =
+            p;
+        let (kappa, per) = ([loading, unloading], [per_loading, per_unloading]);
+        Self { k, kappa, per, u0, closed, acts: [tension, compression] }
+    }
+
+    /// Slip on the branch of loading (0) or of unloading (1), between zero and closed rings.
+    #[inline(always)]
+    fn slip(&self, branch: usize, d: R) -> R {
+        let Self { k, kappa, per, u0, closed, .. } = *self;
+        ((k * d - kappa[branch] * u0) * per[branch]).max(k.of(0.0)).min(closed)
+    }
+
+    /// ½ κ ((s + p)² − p²).
+    #[inline(always)]
+    fn rings(&self, kappa: R, slip: R) -> R {
+        let half = slip.of(0.5);
+        half * kappa * slip * (slip + self.u0 + self.u0)
+    }
+}
+
+const PARAMETERS: usize = 9;
+
+struct FrictionSpringLaw;
+
+impl LaneLaw for FrictionSpringLaw {
+    const COORDINATES: usize = 1;
+    const HISTORY: usize = 1;
+    const PARAMETERS: usize = PARAMETERS;
+
+    #[inline(always)]
+    fn respond<R: Real>(
+        at: &LaneAt<'_, R>,
+        out: &mut LaneForce<'_, R>,
+        trial: &mut [R],
+    ) -> LaneStep<R> {
+        let it = Of::read(at.parameters);
+        let (k, d, slip) = (it.k, at.d[0], at.history[0]);
+        let (zero, one, half) = (k.of(0.0), k.of(1.0), k.of(0.5));
+        // On the side of negative d signs are turned; at d = 0 it is on the side that acts.
+        let turned = d.lt(zero) | (d.le(zero) & !zero.lt(it.acts[0]));
+        let acts = zero.lt(R::select(turned, it.acts[1], it.acts[0]));
+        // The rings of the other side have been let go on the way.
+        let before = R::select(turned, -slip, slip).max(zero);
+        let (low, high) = (it.slip(0, d.abs()), it.slip(1, d.abs()));
+        let after = before.max(low).min(high).only(acts);
+        let loads = before.lt(low) & low.lt(it.closed);
+        let unloads = high.lt(before) & zero.lt(high);
+        let by_d = (k * it.per[0]).only(loads) + (k * it.per[1]).only(unloads);
+        let f = (k * (d.abs() - after)).only(acts);
+        trial[0] = R::select(turned, -after, after);
+        out.f[0] = R::select(turned, -f, f);
+        out.k[0] = (k * (one - by_d)).only(acts);
+        out.c[0] = zero;
+        let lost = it.kappa[0] - it.kappa[1];
+        let heat = it.rings(lost, after) - it.rings(lost, before);
+        LaneStep {
+            stored: half * f * f / k + it.rings(it.kappa[1], after),
+            hysteretic: heat.max(zero),
+            viscous: zero,
+        }
+    }
+}
+
+const LAW: Written = Written::of::<FrictionSpringLaw>().still();
 
 impl FrictionSpring {
     /// Force over slip + precompression, on the branch of stiffness `slope`.
@@ -108,36 +189,24 @@ impl FrictionSpring {
         self.k * slope / (self.k - slope)
     }
 
-    /// On the side of positive d.
-    fn pushed(&self, d: f64, slip0: f64) -> Slip {
+    fn law(&self) -> Written {
+        LAW
+    }
+
+    /// The parameters of the law.
+    fn numbers(&self) -> [f64; PARAMETERS] {
         let (k, p) = (self.k, self.u0);
-        let on = |kappa: f64| (k * d - kappa * p) / (k + kappa);
-        let (loading, unloading) = (self.branch(self.k1), self.branch(self.k2));
-        let closed = self.us.map_or(f64::INFINITY, |us| (k * us - loading * p) / (k + loading));
-        // Slip lies between the two branches, and between zero and closed rings.
-        let (low, high) = (on(loading).clamp(0.0, closed), on(unloading).clamp(0.0, closed));
-        let moves = |kappa: f64| Slip { slip: on(kappa), by_d: k / (k + kappa) };
-        let stays = |slip: f64| Slip { slip, by_d: 0.0 };
-        if slip0 < low {
-            if low < closed { moves(loading) } else { stays(closed) }
-        } else if slip0 > high {
-            if high > 0.0 { moves(unloading) } else { stays(0.0) }
-        } else {
-            stays(slip0)
-        }
-    }
-
-    /// Energy of the rings at a slip, with `kappa` for the branch that takes or gives it.
-    fn rings(&self, kappa: f64, slip: f64) -> f64 {
-        0.5 * kappa * slip * (slip + 2.0 * self.u0)
-    }
-
-    fn acts(&self, d: f64) -> bool {
-        match self.direction {
-            Direction::Both => true,
-            Direction::Tension => d >= 0.0,
-            Direction::Compression => d <= 0.0,
-        }
+        let kappa = [self.k1, self.k2].map(|slope| self.branch(slope));
+        let per = kappa.map(|kappa| (k + kappa).recip());
+        let closed = |us: f64| (k * us - kappa[0] * p) * per[0];
+        // Farther than anything slips, and yet a number that can be taken from another.
+        let closed = self.us.map_or(f64::MAX, closed);
+        let acts = match self.direction {
+            Direction::Both => [1.0, 1.0],
+            Direction::Tension => [1.0, 0.0],
+            Direction::Compression => [0.0, 1.0],
+        };
+        [k, kappa[0], kappa[1], per[0], per[1], p, closed, acts[0], acts[1]]
     }
 }
 
@@ -159,31 +228,7 @@ impl Link for FrictionSpring {
         k[0] = self.k;
     }
 
-    fn respond(
-        &self,
-        at: &Kinematics<'_>,
-        committed: &[f64],
-        trial: &mut [f64],
-        out: &mut Response<'_>,
-    ) {
-        let d = at.d[0];
-        let (sign, slip0) = (1.0_f64.copysign(d), committed[0]);
-        trial[0] = 0.0;
-        if self.acts(d) {
-            // The rings of the other side have been let go on the way.
-            let it = self.pushed(d.abs(), (sign * slip0).max(0.0));
-            trial[0] = sign * it.slip;
-            out.f[0] = self.k * (d - trial[0]);
-            out.k[0] = self.k * (1.0 - it.by_d);
-        }
-        let (before, after) = (slip0.abs(), trial[0].abs());
-        let (loading, unloading) = (self.branch(self.k1), self.branch(self.k2));
-        let heat = |slip: f64| self.rings(loading, slip) - self.rings(unloading, slip);
-        out.energy.stored = 0.5 * out.f[0] * out.f[0] / self.k + self.rings(unloading, after);
-        let same_side = trial[0] * slip0 >= 0.0;
-        let from = if same_side { before } else { 0.0 };
-        out.energy.hysteretic = (heat(after) - heat(from)).max(0.0);
-    }
+    answers_by_law!();
 }
 
 #[cfg(test)]

@@ -18,6 +18,7 @@
 
 use nalgebra::DMatrix;
 use serde::Deserialize;
+use trilith_element::lanes::{LaneAt, LaneForce, LaneForm, LaneLaw, LaneStep, Real};
 use trilith_element::{
     Axis, Card, Category, Coordinates, Described, Dimension, Exercise, Kinematics, Link, NodeCount,
     ParameterError, Parameters, Response, Stroke,
@@ -80,11 +81,81 @@ impl LinearLink {
     }
 }
 
-/// Σ xᵢ aᵢⱼ yⱼ over the used directions.
-fn bilinear(a: &Matrix6, used: &[usize], x: &[f64], y: &[f64]) -> f64 {
-    let row =
-        |p: usize, i: usize| -> f64 { used.iter().zip(y).map(|(j, y)| x[p] * a[i][*j] * y).sum() };
-    used.iter().enumerate().map(|(p, i)| row(p, *i)).sum()
+/// Numbers of both matrices, at most.
+const NUMBERS: usize = 2 * 6 * 6;
+
+impl LinearLink {
+    /// K and C over the used directions, by rows, one behind the other; and how many directions these are.
+    fn numbers(&self) -> ([f64; NUMBERS], usize) {
+        let (used, n) = self.used();
+        let mut numbers = [0.0; NUMBERS];
+        for (a, to) in [&self.stiffness, &self.damping].iter().zip(numbers.chunks_mut(n * n)) {
+            let Some(a) = a else { continue };
+            for (i, x) in to.iter_mut().enumerate() {
+                *x = a[used[i / n]][used[i % n]];
+            }
+        }
+        (numbers, n)
+    }
+}
+
+/// The answer of `n` directions.
+#[inline(always)]
+fn answer<R: Real>(n: usize, at: &LaneAt<'_, R>, out: &mut LaneForce<'_, R>) -> LaneStep<R> {
+    let (k, c) = at.parameters.split_at(n * n);
+    let (zero, half) = (at.dt.of(0.0), at.dt.of(0.5));
+    for i in 0..n {
+        let mut f = zero;
+        for j in 0..n {
+            f = k[i * n + j].mul_add(at.d[j], f);
+        }
+        for j in 0..n {
+            f = c[i * n + j].mul_add(at.v[j], f);
+        }
+        out.f[i] = f;
+    }
+    out.k.copy_from_slice(k);
+    out.c.copy_from_slice(c);
+    let (crossed, own) = (
+        bilinear(n, c, at.v0, at.v) + bilinear(n, c, at.v, at.v0),
+        bilinear(n, c, at.v0, at.v0) + bilinear(n, c, at.v, at.v),
+    );
+    LaneStep {
+        stored: half * bilinear(n, k, at.d, at.d),
+        // ∫ ḋᵀ S d dt on a straight path from d₀ to d, S = (K − Kᵀ)/2.
+        hysteretic: half * (bilinear(n, k, at.d, at.d0) - bilinear(n, k, at.d0, at.d)),
+        viscous: at.dt * (own + own + crossed) / at.dt.of(6.0),
+    }
+}
+
+/// Σ xᵢ aᵢⱼ yⱼ.
+#[inline(always)]
+fn bilinear<R: Real>(n: usize, a: &[R], x: &[R], y: &[R]) -> R {
+    let mut sum = x[0].of(0.0);
+    for i in 0..n {
+        for j in 0..n {
+            sum = (x[i] * a[i * n + j]).mul_add(y[j], sum);
+        }
+    }
+    sum
+}
+
+/// The law over lanes, of links of few directions.
+struct LinearLaw<const N: usize>;
+
+impl<const N: usize> LaneLaw for LinearLaw<N> {
+    const COORDINATES: usize = N;
+    const HISTORY: usize = 0;
+    const PARAMETERS: usize = 2 * N * N;
+
+    #[inline(always)]
+    fn respond<R: Real>(
+        at: &LaneAt<'_, R>,
+        out: &mut LaneForce<'_, R>,
+        _: &mut [R],
+    ) -> LaneStep<R> {
+        answer(N, at, out)
+    }
 }
 
 /// The symmetric part without its negative eigenvalues, by rows. Directions are first scaled to equal
@@ -133,31 +204,21 @@ impl Link for LinearLink {
     }
 
     fn respond(&self, at: &Kinematics<'_>, _: &[f64], _: &mut [f64], out: &mut Response<'_>) {
-        let (used, n) = self.used();
-        let used = &used[..n];
-        let mut add = |a: &Matrix6, x: &[f64], rate: bool| {
-            for (p, i) in used.iter().enumerate() {
-                for (q, j) in used.iter().enumerate() {
-                    out.f[p] += a[*i][*j] * x[q];
-                    let tangent = if rate { &mut *out.c } else { &mut *out.k };
-                    tangent[p * n + q] = a[*i][*j];
-                }
-            }
+        let (numbers, n) = self.numbers();
+        let asked = LaneAt::new(at, &[], &numbers[..2 * n * n]);
+        let mut force = LaneForce { f: out.f, k: out.k, c: out.c };
+        *out.energy = answer(n, &asked, &mut force).into();
+    }
+
+    fn lanes(&self, _: &[bool]) -> Option<LaneForm> {
+        let (numbers, n) = self.numbers();
+        let of = match n {
+            1 => LaneForm::of::<LinearLaw<1>>,
+            2 => LaneForm::of::<LinearLaw<2>>,
+            3 => LaneForm::of::<LinearLaw<3>>,
+            _ => return None,
         };
-        if let Some(k) = &self.stiffness {
-            add(k, at.d, false);
-            out.energy.stored = 0.5 * bilinear(k, used, at.d, at.d);
-            // ∫ ḋᵀ S d dt on a straight path from d₀ to d, S = (K − Kᵀ)/2.
-            out.energy.hysteretic =
-                0.5 * (bilinear(k, used, at.d, at.d0) - bilinear(k, used, at.d0, at.d));
-        }
-        if let Some(c) = &self.damping {
-            add(c, at.v, true);
-            let (v0, v1) = (at.v0, at.v);
-            let crossed = bilinear(c, used, v0, v1) + bilinear(c, used, v1, v0);
-            let own = bilinear(c, used, v0, v0) + bilinear(c, used, v1, v1);
-            out.energy.viscous = at.dt * (2.0 * own + crossed) / 6.0;
-        }
+        Some(of((0..n).collect(), numbers[..2 * n * n].to_vec()))
     }
 }
 
