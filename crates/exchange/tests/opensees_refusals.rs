@@ -96,6 +96,22 @@ fn what_is_wrong_is_told_at_its_place() {
     assert!(said.contains("model.tcl:1:1") && said.contains("there is no model yet"), "{said}");
 }
 
+/// Each expression of few parentheses, and a hundred of them wait for the next: no stack holds that.
+#[test]
+fn expressions_that_wait_for_each_other_come_to_an_end() {
+    let (open, close) = ("(".repeat(95), ")".repeat(95));
+    let said = read_in(format!("proc p {{}} {{ expr {{{open}[p]{close}}} }}\np").as_bytes(), None);
+    let said = said.unwrap_err().to_string();
+    assert!(said.contains("an expression that is nested too deeply"), "{said}");
+    // Nothing is left of those that have ended, well or not; and what comes to an end may go deep.
+    let script = format!(
+        "proc f {{n}} {{\n  if {{$n < 2}} {{ return 1.0 }}\n  return [expr {{$n*[f [expr {{$n - 1}}]]}}]\n}}\n\
+         for {{set i 0}} {{$i < 50}} {{incr i}} {{\n  catch {{expr {{{open}nothing{close}}}}}\n  \
+         expr {{{open}1{close}}}\n}}\nnode 3 [expr {{[f 80]*1e-118}}] x"
+    );
+    refused(&script, 9, 31, "`x` is no number");
+}
+
 #[test]
 fn files_are_read_within_the_folder_alone_and_none_reads_itself() {
     let all = tempfile::tempdir().unwrap();

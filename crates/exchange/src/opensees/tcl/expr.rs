@@ -13,8 +13,9 @@ enum Term {
 
 use Number::{Real, Whole};
 
-/// Deepest nesting of parentheses.
+/// Deepest nesting of parentheses, in an expression and in all those together that wait for the value of a bracket of theirs.
 const DEEPEST: usize = 100;
+const DEEPEST_TOGETHER: usize = 300;
 
 struct Reader<'a, 'h> {
     interpreter: &'a mut Interpreter<'h>,
@@ -23,14 +24,23 @@ struct Reader<'a, 'h> {
     at: usize,
     /// False where a part is only read over: the other side of `?:`, `&&`, `||`.
     live: bool,
-    depth: usize,
+    /// Nesting of the expressions around this one.
+    around: usize,
 }
 
 /// Value of an expression.
 pub fn evaluate(interpreter: &mut Interpreter<'_>, expression: &Value) -> Outcome {
+    let around = interpreter.parentheses;
+    let out = value(interpreter, expression, around);
+    // Wherever it has ended.
+    interpreter.parentheses = around;
+    out
+}
+
+fn value(interpreter: &mut Interpreter<'_>, expression: &Value, around: usize) -> Outcome {
     let text = expression.text.clone();
     let origin = expression.origin;
-    let mut reader = Reader { interpreter, text: &text, origin, at: 0, live: true, depth: 0 };
+    let mut reader = Reader { interpreter, text: &text, origin, at: 0, live: true, around };
     let out = reader.ternary()?;
     reader.space();
     if reader.at < text.len() {
@@ -107,8 +117,9 @@ impl Reader<'_, '_> {
     }
 
     fn deeper(&mut self) -> Result<(), Flow> {
-        self.depth += 1;
-        if self.depth > DEEPEST {
+        self.interpreter.parentheses += 1;
+        let depth = self.interpreter.parentheses;
+        if depth > DEEPEST_TOGETHER || depth - self.around > DEEPEST {
             return Err(self.wrong("an expression that is nested too deeply"));
         }
         Ok(())
@@ -131,7 +142,7 @@ impl Reader<'_, '_> {
         } else {
             condition
         };
-        self.depth -= 1;
+        self.interpreter.parentheses -= 1;
         Ok(out)
     }
 
@@ -198,7 +209,7 @@ impl Reader<'_, '_> {
         }
         self.deeper()?;
         let exponent = self.power()?;
-        self.depth -= 1;
+        self.interpreter.parentheses -= 1;
         if !self.live {
             return Ok(base);
         }
@@ -225,7 +236,7 @@ impl Reader<'_, '_> {
         self.at += 1;
         self.deeper()?;
         let term = self.unary()?;
-        self.depth -= 1;
+        self.interpreter.parentheses -= 1;
         if !self.live {
             return Ok(term);
         }

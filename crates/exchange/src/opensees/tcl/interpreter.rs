@@ -90,6 +90,8 @@ pub struct Interpreter<'h> {
     /// Where the words of the command that is run stand.
     pub places: Vec<Place>,
     depth: usize,
+    /// Nesting of the expressions that wait for a value.
+    pub parentheses: usize,
     spent: u64,
     bytes: usize,
 }
@@ -106,6 +108,7 @@ impl<'h> Interpreter<'h> {
             procedures: HashMap::new(),
             places: vec![Place { file: 0, span: 0..0 }],
             depth: 0,
+            parentheses: 0,
             spent: 0,
             bytes: 0,
         }
