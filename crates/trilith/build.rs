@@ -9,8 +9,9 @@ use std::io::{Error, Result};
 use std::path::{Path, PathBuf};
 
 /// Parts of the workspace that results hang on.
-const PARTS: [&str; 11] = [
+const PARTS: [&str; 12] = [
     "crates/element",
+    "crates/foreign",
     "crates/linalg",
     "crates/model",
     "crates/record",
