@@ -89,7 +89,9 @@ impl LinearLink {
     fn numbers(&self) -> ([f64; NUMBERS], usize) {
         let (used, n) = self.used();
         let mut numbers = [0.0; NUMBERS];
-        for (a, to) in [&self.stiffness, &self.damping].iter().zip(numbers.chunks_mut(n * n)) {
+        for (a, to) in
+            [&self.stiffness, &self.damping].iter().zip(numbers.chunks_mut((n * n).max(1)))
+        {
             let Some(a) = a else { continue };
             for (i, x) in to.iter_mut().enumerate() {
                 *x = a[used[i / n]][used[i % n]];
@@ -117,21 +119,21 @@ fn answer<R: Real>(n: usize, at: &LaneAt<'_, R>, out: &mut LaneForce<'_, R>) -> 
     out.k.copy_from_slice(k);
     out.c.copy_from_slice(c);
     let (crossed, own) = (
-        bilinear(n, c, at.v0, at.v) + bilinear(n, c, at.v, at.v0),
-        bilinear(n, c, at.v0, at.v0) + bilinear(n, c, at.v, at.v),
+        bilinear(zero, n, c, at.v0, at.v) + bilinear(zero, n, c, at.v, at.v0),
+        bilinear(zero, n, c, at.v0, at.v0) + bilinear(zero, n, c, at.v, at.v),
     );
     LaneStep {
-        stored: half * bilinear(n, k, at.d, at.d),
+        stored: half * bilinear(zero, n, k, at.d, at.d),
         // ∫ ḋᵀ S d dt on a straight path from d₀ to d, S = (K − Kᵀ)/2.
-        hysteretic: half * (bilinear(n, k, at.d, at.d0) - bilinear(n, k, at.d0, at.d)),
+        hysteretic: half * (bilinear(zero, n, k, at.d, at.d0) - bilinear(zero, n, k, at.d0, at.d)),
         viscous: at.dt * (own + own + crossed) / at.dt.of(6.0),
     }
 }
 
 /// Σ xᵢ aᵢⱼ yⱼ.
 #[inline(always)]
-fn bilinear<R: Real>(n: usize, a: &[R], x: &[R], y: &[R]) -> R {
-    let mut sum = x[0].of(0.0);
+fn bilinear<R: Real>(zero: R, n: usize, a: &[R], x: &[R], y: &[R]) -> R {
+    let mut sum = zero;
     for i in 0..n {
         for j in 0..n {
             sum = (x[i] * a[i * n + j]).mul_add(y[j], sum);
@@ -325,6 +327,10 @@ mod tests {
 
     #[test]
     fn refuses_matrices_without_an_entry() {
+        // Made by hand it is no link, and answers nothing.
+        let none = LinearLink { stiffness: None, damping: None };
+        assert_eq!((none.coordinates().len(), Driver::new(&none).f.len()), (0, 0));
+        assert!(none.lanes(&[]).is_none());
         assert!(read::<LinearLink>(&[]).is_err());
         assert!(read::<LinearLink>(&[("stiffness", rows(&[[0.0; 6]; 6]))]).is_err());
     }
