@@ -181,8 +181,6 @@ impl LaneLaw for FrictionSpringLaw {
     }
 }
 
-const LAW: Written = Written::of::<FrictionSpringLaw>().still();
-
 impl FrictionSpring {
     /// Force over slip + precompression, on the branch of stiffness `slope`.
     fn branch(&self, slope: f64) -> f64 {
@@ -190,7 +188,7 @@ impl FrictionSpring {
     }
 
     fn law(&self) -> Written {
-        LAW
+        Written::of::<FrictionSpringLaw>().still()
     }
 
     /// The parameters of the law.

@@ -30,7 +30,7 @@ fn mass_with(link: &str) -> String {
     text.replace("LINK", link)
 }
 
-/// Kinds of links that are asked one lane after the other, and others that no study here has.
+/// Kinds of links that are asked one lane after the other, and others beside them.
 const LINKS: [&str; 13] = [
     r#"MaxwellDamper(node: "cg", k: "5 MN/m", c: "20 kN*(s/m)^0.35", exponent: 0.35, axis: U2)"#,
     r#"BilinearDamper(node: "cg", k: "5 MN/m", c: "40 kN*s/m", cy: "4 kN*s/m", fl: "2 kN", axis: U2)"#,

@@ -13,9 +13,8 @@ enum Term {
 
 use Number::{Real, Whole};
 
-/// Deepest nesting of parentheses, in an expression and in all those together that wait for the value of a bracket of theirs.
-const DEEPEST: usize = 100;
-const DEEPEST_TOGETHER: usize = 300;
+/// Deepest nesting of parentheses, of all expressions together that wait for the value of a bracket of theirs.
+const DEEPEST: usize = 300;
 
 struct Reader<'a, 'h> {
     interpreter: &'a mut Interpreter<'h>,
@@ -24,23 +23,21 @@ struct Reader<'a, 'h> {
     at: usize,
     /// False where a part is only read over: the other side of `?:`, `&&`, `||`.
     live: bool,
-    /// Nesting of the expressions around this one.
-    around: usize,
 }
 
 /// Value of an expression.
 pub fn evaluate(interpreter: &mut Interpreter<'_>, expression: &Value) -> Outcome {
     let around = interpreter.parentheses;
-    let out = value(interpreter, expression, around);
+    let out = value(interpreter, expression);
     // Wherever it has ended.
     interpreter.parentheses = around;
     out
 }
 
-fn value(interpreter: &mut Interpreter<'_>, expression: &Value, around: usize) -> Outcome {
+fn value(interpreter: &mut Interpreter<'_>, expression: &Value) -> Outcome {
     let text = expression.text.clone();
     let origin = expression.origin;
-    let mut reader = Reader { interpreter, text: &text, origin, at: 0, live: true, around };
+    let mut reader = Reader { interpreter, text: &text, origin, at: 0, live: true };
     let out = reader.ternary()?;
     reader.space();
     if reader.at < text.len() {
@@ -118,8 +115,7 @@ impl Reader<'_, '_> {
 
     fn deeper(&mut self) -> Result<(), Flow> {
         self.interpreter.parentheses += 1;
-        let depth = self.interpreter.parentheses;
-        if depth > DEEPEST_TOGETHER || depth - self.around > DEEPEST {
+        if self.interpreter.parentheses > DEEPEST {
             return Err(self.wrong("an expression that is nested too deeply"));
         }
         Ok(())
